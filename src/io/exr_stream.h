@@ -1,0 +1,69 @@
+// OpenEXR's streams over a file, over bytes in memory and into a string, with plain bounds checks.
+#pragma once
+
+#include <OpenEXR/ImfIO.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+
+namespace lobelia::io {
+
+// OpenEXR 2 and 3 name different 64-bit types here.
+using StreamPosition = decltype(std::declval<Imf::IStream&>().tellg());
+
+/// A source of known size. `read` throws std::runtime_error where the bytes run out, as OpenEXR expects.
+class ExrInput : public Imf::IStream {
+  public:
+    using Imf::IStream::IStream;
+    [[nodiscard]] virtual std::uint64_t size() const = 0;
+};
+
+class MemoryInput final : public ExrInput {
+  public:
+    MemoryInput(std::span<const std::byte> bytes, const std::string& name) : ExrInput(name.c_str()), bytes_(bytes) {}
+    bool read(char* target, int count) override;
+    StreamPosition tellg() override { return position_; }
+    void seekg(StreamPosition position) override { position_ = position; }
+    [[nodiscard]] std::uint64_t size() const override { return bytes_.size(); }
+
+  private:
+    std::span<const std::byte> bytes_;
+    StreamPosition position_ = 0;
+};
+
+/// A file opened for reading; `file` is owned and must be seekable.
+class FileInput final : public ExrInput {
+  public:
+    using Handle = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
+    FileInput(Handle file, std::uint64_t size, const std::string& name)
+        : ExrInput(name.c_str()), file_(std::move(file)), size_(size) {}
+    bool read(char* target, int count) override;
+    StreamPosition tellg() override { return position_; }
+    void seekg(StreamPosition position) override;
+    [[nodiscard]] std::uint64_t size() const override { return size_; }
+
+  private:
+    Handle file_;
+    std::uint64_t size_;
+    StreamPosition position_ = 0;
+};
+
+class MemoryOutput final : public Imf::OStream {
+  public:
+    explicit MemoryOutput(const std::string& name) : OStream(name.c_str()) {}
+    void write(const char* source, int count) override;
+    StreamPosition tellp() override { return position_; }
+    void seekp(StreamPosition position) override { position_ = position; }
+    [[nodiscard]] std::string take() { return std::move(bytes_); }
+
+  private:
+    std::string bytes_;
+    StreamPosition position_ = 0;
+};
+
+}  // namespace lobelia::io

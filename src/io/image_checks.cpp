@@ -1,0 +1,92 @@
+// What every image reader shares: the limits on size, and the inspection of decoded pixels.
+#include "io/image_checks.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <optional>
+
+namespace lobelia::io {
+
+namespace {
+
+enum class Fault { none, nan, infinite, negative };
+
+Fault fault_of(Rgb pixel) {
+    const std::array<float, 3> components{pixel.r, pixel.g, pixel.b};
+    Fault fault = Fault::none;
+    for (const float c : components) {
+        if (std::isnan(c)) return Fault::nan;
+        if (std::isinf(c)) fault = Fault::infinite;
+        if (c < 0 && fault == Fault::none) fault = Fault::negative;
+    }
+    return fault;
+}
+
+Rgb sanitized(Rgb pixel) {
+    const auto clean = [](float c) { return std::isfinite(c) && c > 0 ? c : 0.0f; };
+    return {clean(pixel.r), clean(pixel.g), clean(pixel.b)};
+}
+
+void count(BadPixels& bad, Fault fault) {
+    bad.nan += fault == Fault::nan;
+    bad.infinite += fault == Fault::infinite;
+    bad.negative += fault == Fault::negative;
+}
+
+}  // namespace
+
+Status check_size(std::string_view name, std::int64_t width, std::int64_t height, const ReadOptions& options) {
+    if (width <= 0 || height <= 0)
+        return Error{fmt::format("{}: the image is {} x {} pixels; it must have at least one", name, width, height)};
+    if (width > k_most_side || height > k_most_side)
+        return Error{
+            fmt::format("{}: the image is {} x {} pixels; no side may exceed {}", name, width, height, k_most_side)};
+    if (static_cast<std::uint64_t>(width * height) > options.most_pixels)
+        return Error{fmt::format("{}: the image is {} x {} pixels; at most {} pixels are read", name, width, height,
+                                 options.most_pixels)};
+    return Done{};
+}
+
+void clip_to_gamut(LoadedImage& loaded) {
+    std::size_t clipped = 0;
+    for (Rgb& pixel : loaded.image.pixels) {
+        if (fault_of(pixel) != Fault::negative) continue;
+        pixel = sanitized(pixel);
+        ++clipped;
+    }
+    if (clipped > 0)
+        loaded.warnings.push_back(
+            fmt::format("{} pixels lie outside the Rec. 709 gamut; their negative components were set to 0", clipped));
+}
+
+Result<LoadedImage> inspected(LoadedImage loaded, std::string_view name, const ReadOptions& options) {
+    // Count the pixels that are no radiance, and replace their faulty components where allowed.
+    BadPixels bad;
+    std::optional<std::size_t> first;
+    for (std::size_t i = 0; i < loaded.image.pixels.size(); ++i) {
+        Rgb& pixel = loaded.image.pixels[i];
+        const Fault fault = fault_of(pixel);
+        if (fault == Fault::none) continue;
+        count(bad, fault);
+        if (!first) first = i;
+        if (options.sanitize) pixel = sanitized(pixel);
+    }
+
+    // Refuse the image with the first place, unless they were replaced.
+    if (first && !options.sanitize)
+        return Error{fmt::format(
+            "{}: {} NaN, {} infinite and {} negative pixels, the first at x = {}, y = {}; pass "
+            "--sanitize to replace them by 0",
+            name, bad.nan, bad.infinite, bad.negative, *first % loaded.image.width, *first / loaded.image.width)};
+    loaded.sanitized = bad;
+
+    // Warn of a shape that no latitude-longitude map has.
+    if (loaded.image.width != 2 * loaded.image.height)
+        loaded.warnings.push_back(
+            fmt::format("the image is {} x {} pixels, not 2 : 1; it is stretched over the whole sphere",
+                        loaded.image.width, loaded.image.height));
+    return loaded;
+}
+
+}  // namespace lobelia::io

@@ -1,0 +1,243 @@
+// OpenEXR environments: planes are read straight into the image, which is all the memory that a large one needs.
+#include "io/read_exr.h"
+
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfInputPart.h>
+#include <OpenEXR/ImfMultiPartInputFile.h>
+#include <OpenEXR/ImfPartType.h>
+#include <OpenEXR/ImfRgbaFile.h>
+#include <OpenEXR/ImfStandardAttributes.h>
+#include <OpenEXR/ImfTileDescription.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "io/exr_headers.h"
+#include "io/image_checks.h"
+
+namespace lobelia::io {
+
+namespace {
+
+/// The channels that are read: prefix.R and so on.
+struct Choice {
+    enum class Kind { rgb, luminance, luminance_chroma };
+    Kind kind = Kind::rgb;
+    int part = 0;
+    std::string prefix;
+};
+
+struct Size {
+    std::int64_t width = 0, height = 0;
+};
+
+Size size_of(const Imf::Header& header) {
+    const auto& window = header.dataWindow();
+    return {std::int64_t{window.max.x} - window.min.x + 1, std::int64_t{window.max.y} - window.min.y + 1};
+}
+
+bool is_deep(const Imf::Header& header) {
+    return header.hasType() && (header.type() == Imf::DEEPSCANLINE || header.type() == Imf::DEEPTILE);
+}
+
+bool has_rgb(const Imf::ChannelList& channels, const std::string& prefix) {
+    return channels.findChannel(prefix + "R") && channels.findChannel(prefix + "G") &&
+           channels.findChannel(prefix + "B");
+}
+
+/// The plain channels of a part.
+std::optional<Choice> plain_channels(const Imf::Header& header, int part) {
+    const Imf::ChannelList& channels = header.channels();
+    if (has_rgb(channels, "")) return Choice{Choice::Kind::rgb, part, ""};
+    if (!channels.findChannel("Y")) return std::nullopt;
+    const bool chroma = channels.findChannel("RY") && channels.findChannel("BY");
+    return Choice{chroma ? Choice::Kind::luminance_chroma : Choice::Kind::luminance, part, ""};
+}
+
+/// The first layer of a part, by name, that has R, G and B.
+std::optional<Choice> layered_channels(const Imf::Header& header, int part) {
+    for (auto c = header.channels().begin(); c != header.channels().end(); ++c) {
+        const std::string name = c.name();
+        const std::size_t dot = name.rfind('.');
+        if (dot != std::string::npos && has_rgb(header.channels(), name.substr(0, dot + 1)))
+            return Choice{Choice::Kind::rgb, part, name.substr(0, dot + 1)};
+    }
+    return std::nullopt;
+}
+
+Result<Choice> choose(const Imf::MultiPartInputFile& file, std::string_view name) {
+    bool deep = false;
+    for (const auto& channels_of : {plain_channels, layered_channels}) {
+        for (int part = 0; part < file.parts(); ++part) {
+            deep = deep || is_deep(file.header(part));
+            if (is_deep(file.header(part))) continue;
+            if (const auto choice = channels_of(file.header(part), part)) return *choice;
+        }
+    }
+    if (deep) return Error{fmt::format("{}: a deep OpenEXR image; flatten it first", name)};
+    return Error{fmt::format("{}: no part of the OpenEXR file has the channels R, G, B or Y", name)};
+}
+
+std::int64_t lines_per_chunk(Imf::Compression compression) {
+    switch (compression) {
+        case Imf::NO_COMPRESSION:
+        case Imf::RLE_COMPRESSION:
+        case Imf::ZIPS_COMPRESSION:
+            return 1;
+        case Imf::ZIP_COMPRESSION:
+        case Imf::PXR24_COMPRESSION:
+            return 16;
+        case Imf::DWAB_COMPRESSION:
+            return 256;
+        default:
+            return 32;
+    }
+}
+
+/// How many samples OpenEXR buffers at once for a part.
+std::int64_t buffered_samples(const Imf::Header& header) {
+    std::int64_t channels = 0;
+    for (auto c = header.channels().begin(); c != header.channels().end(); ++c) ++channels;
+    const std::int64_t width = size_of(header).width;
+    if (!header.hasTileDescription()) return width * lines_per_chunk(header.compression()) * channels;
+    // Tiles are buffered by rows, whole at the right edge.
+    const Imf::TileDescription& tile = header.tileDescription();
+    return (width + tile.xSize) * tile.ySize * channels;
+}
+
+Status check_part(const Imf::Header& header, const Choice& choice, std::string_view name, std::uint64_t file_bytes,
+                  const ReadOptions& options) {
+    const Size size = size_of(header);
+    if (const Status status = check_size(name, size.width, size.height, options); !status) return status;
+    const std::int64_t most_buffered =
+        std::min(std::int64_t{1} << 28, static_cast<std::int64_t>(4 * options.most_pixels + (1u << 20)));
+    if (buffered_samples(header) > most_buffered)
+        return Error{fmt::format("{}: one chunk of the image would take more than {} samples", name, most_buffered)};
+
+    // DWA compresses best: 64 equal samples are two symbols of 16 bits, deflated at most 1032 : 1.
+    constexpr std::uint64_t k_most_samples_per_byte = 64 * 1032 / 4;
+    const std::uint64_t samples =
+        static_cast<std::uint64_t>(size.width * size.height) * (choice.kind == Choice::Kind::rgb ? 3 : 1);
+    if (samples / k_most_samples_per_byte > file_bytes)
+        return Error{fmt::format("{}: {} bytes cannot hold {} x {} pixels", name, file_bytes, size.width, size.height)};
+
+    // Only chroma may be stored at a lower rate.
+    const bool chroma = choice.kind == Choice::Kind::luminance_chroma;
+    for (const char* channel : {"R", "G", "B", "Y", "RY", "BY"}) {
+        const Imf::Channel* found = header.channels().findChannel(choice.prefix + channel);
+        const int rate = chroma && (channel[1] == 'Y') ? 2 : 1;
+        if (found && (found->xSampling != rate || found->ySampling != rate))
+            return Error{fmt::format("{}: channel {}{} is sampled at 1/{} x 1/{}; 1/{} was expected", name,
+                                     choice.prefix, channel, found->xSampling, found->ySampling, rate)};
+    }
+    if (chroma && choice.part != 0)
+        return Error{fmt::format("{}: luminance and chroma are read from the first part only, not from part {}", name,
+                                 choice.part)};
+    return Done{};
+}
+
+/// Reads R, G, B, or Y into r alone, in place.
+void read_planes(Imf::MultiPartInputFile& file, const Choice& choice, Image& image) {
+    Imf::InputPart part(file, choice.part);
+    const auto& window = part.header().dataWindow();
+    const std::size_t row = image.width * sizeof(Rgb);
+    Imf::FrameBuffer target;
+    const auto insert = [&](const char* channel, float& first) {
+        target.insert(choice.prefix + channel, Imf::Slice::Make(Imf::FLOAT, &first, window, sizeof(Rgb), row));
+    };
+    if (choice.kind == Choice::Kind::luminance) {
+        insert("Y", image.pixels[0].r);
+    } else {
+        insert("R", image.pixels[0].r);
+        insert("G", image.pixels[0].g);
+        insert("B", image.pixels[0].b);
+    }
+    part.setFrameBuffer(target);
+    part.readPixels(window.min.y, window.max.y);
+}
+
+/// Reads luminance and chroma through OpenEXR's own conversion, a scanline at a time.
+void read_luminance_chroma(ExrInput& in, Image& image) {
+    in.seekg(0);
+    Imf::RgbaInputFile file(in);
+    const auto& window = file.dataWindow();
+    std::vector<Imf::Rgba> line(image.width);
+    file.setFrameBuffer(line.data() - window.min.x, 1, 0);
+    for (std::size_t y = 0; y < image.height; ++y) {
+        file.readPixels(window.min.y + static_cast<int>(y));
+        for (std::size_t x = 0; x < image.width; ++x) image.at(x, y) = {line[x].r, line[x].g, line[x].b};
+    }
+}
+
+std::vector<std::string> warnings_about(const Imf::MultiPartInputFile& file, const Choice& choice) {
+    std::vector<std::string> warnings;
+    const Imf::Header& header = file.header(choice.part);
+    if (file.parts() > 1)
+        warnings.push_back(fmt::format("read part {} (\"{}\") of {}", choice.part,
+                                       header.hasName() ? header.name() : std::string(), file.parts()));
+    if (!choice.prefix.empty())
+        warnings.push_back(fmt::format("there are no plain R, G, B; read {0}R, {0}G and {0}B", choice.prefix));
+    if (Imf::hasChromaticities(header)) {
+        const Imf::Chromaticities given = Imf::chromaticities(header), rec709;
+        const auto differ = [](const auto& a, const auto& b) { return !(std::hypot(a.x - b.x, a.y - b.y) < 0.002f); };
+        if (differ(given.red, rec709.red) || differ(given.green, rec709.green) || differ(given.blue, rec709.blue) ||
+            differ(given.white, rec709.white))
+            warnings.push_back("the chromaticities are not those of Rec. 709; pixels are taken as Rec. 709 unchanged");
+    }
+    return warnings;
+}
+
+/// Everything that may throw: faults of the file arrive as exceptions of OpenEXR.
+Result<LoadedImage> decode(ExrInput& in, std::string_view name, const ReadOptions& options) {
+    // Choose the channels. A missing table of chunks is not searched for: such files are incomplete.
+    Imf::MultiPartInputFile file(in, Imf::globalThreadCount(), false);
+    const Result<Choice> choice = choose(file, name);
+    if (!choice) return choice.error();
+    const Imf::Header& header = file.header(choice->part);
+    if (const Status status = check_part(header, *choice, name, in.size(), options); !status) return status.error();
+
+    // Read them.
+    const Size size = size_of(header);
+    LoadedImage loaded{Image(static_cast<std::size_t>(size.width), static_cast<std::size_t>(size.height)),
+                       warnings_about(file, *choice),
+                       {}};
+    if (choice->kind == Choice::Kind::luminance_chroma) {
+        read_luminance_chroma(in, loaded.image);
+        clip_to_gamut(loaded);
+        return loaded;
+    }
+    read_planes(file, *choice, loaded.image);
+    if (choice->kind == Choice::Kind::luminance)
+        for (Rgb& pixel : loaded.image.pixels) pixel = {pixel.r, pixel.r, pixel.r};
+    return loaded;
+}
+
+}  // namespace
+
+Result<LoadedImage> read_exr(ExrInput& in, std::string_view name, const ReadOptions& options) {
+    if (const Status status = check_exr_headers(in, name, options); !status) return status.error();
+    try {
+        Result<LoadedImage> loaded = decode(in, name, options);
+        if (!loaded) return loaded;
+        return inspected(std::move(*loaded), name, options);
+    } catch (const std::exception& error) {
+        return Error{fmt::format("{}: damaged or incomplete OpenEXR: {} (near byte {} of {})", name, error.what(),
+                                 in.tellg(), in.size())};
+    }
+}
+
+}  // namespace lobelia::io
+
+namespace lobelia {
+
+Result<LoadedImage> read_exr(std::span<const std::byte> bytes, std::string_view name, const ReadOptions& options) {
+    io::MemoryInput in(bytes, std::string(name));
+    return io::read_exr(in, name, options);
+}
+
+}  // namespace lobelia

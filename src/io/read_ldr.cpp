@@ -1,0 +1,125 @@
+// 8- and 16-bit pictures through stb_image, decoded from sRGB to linear.
+#define STB_IMAGE_IMPLEMENTATION
+#define STB_IMAGE_STATIC
+#define STBI_NO_STDIO
+#define STBI_NO_HDR
+#define STBI_NO_LINEAR
+#define STBI_ONLY_PNG
+#define STBI_ONLY_JPEG
+#define STBI_ONLY_BMP
+#define STBI_MAX_DIMENSIONS 65536
+#if defined(__GNUC__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wunused-function"
+#endif
+#include <stb/stb_image.h>
+#if defined(__GNUC__)
+#pragma GCC diagnostic pop
+#endif
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <memory>
+
+#include "io/image_checks.h"
+#include "lobelia/colour.h"
+
+namespace lobelia {
+
+namespace {
+
+struct PictureInfo {
+    int width = 0, height = 0;
+};
+
+/// The bytes as stb_image takes them.
+struct StbBytes {
+    const stbi_uc* data;
+    int size;
+};
+
+template <class Sample>
+using Samples3 = std::unique_ptr<Sample, void (*)(void*)>;
+
+template <class Sample>
+Image decoded(const Sample* samples, PictureInfo info) {
+    // Tabulate the curve: there are at most 65536 different samples.
+    constexpr std::size_t k_levels = std::size_t{std::numeric_limits<Sample>::max()} + 1;
+    std::vector<float> linear(k_levels);
+    for (std::size_t i = 0; i < k_levels; ++i)
+        linear[i] = static_cast<float>(linear_from_srgb(static_cast<double>(i) / (k_levels - 1)));
+
+    Image image(static_cast<std::size_t>(info.width), static_cast<std::size_t>(info.height));
+    for (std::size_t i = 0; i < image.pixels.size(); ++i)
+        image.pixels[i] = {linear[samples[3 * i]], linear[samples[3 * i + 1]], linear[samples[3 * i + 2]]};
+    return image;
+}
+
+/// Whether a JPEG ends before its image does: stb_image would fill the rest with grey. Within image data the byte 0xff
+/// is escaped, so the last marker pair is either the end of the image or the start of the scan that was cut.
+bool is_truncated_jpeg(std::span<const std::byte> bytes) {
+    const auto last_marker = [&](std::byte code) {
+        const std::array<std::byte, 2> marker{std::byte{0xff}, code};
+        return std::find_end(bytes.begin(), bytes.end(), marker.begin(), marker.end());
+    };
+    const auto end_of_image = last_marker(std::byte{0xd9});
+    const auto start_of_scan = last_marker(std::byte{0xda});
+    return end_of_image == bytes.end() || (start_of_scan != bytes.end() && end_of_image < start_of_scan);
+}
+
+Status check_picture(std::span<const std::byte> bytes, std::string_view name, PictureInfo info,
+                     const ReadOptions& options) {
+    if (const Status status = io::check_size(name, info.width, info.height, options); !status) return status;
+    // PNG packs at best 8 pixels into a byte, and deflates 1032 : 1; the others do not compress as well.
+    constexpr std::size_t k_most_pixels_per_byte = 8 * 1032;
+    const std::size_t pixels = static_cast<std::size_t>(info.width) * static_cast<std::size_t>(info.height);
+    if (pixels / k_most_pixels_per_byte > bytes.size())
+        return Error{
+            fmt::format("{}: {} bytes cannot hold {} x {} pixels", name, bytes.size(), info.width, info.height)};
+    if (bytes[0] == std::byte{0xff} && is_truncated_jpeg(bytes))
+        return Error{fmt::format("{}: the JPEG picture ends too early, at byte {}", name, bytes.size())};
+    return Done{};
+}
+
+Result<Image> decode(StbBytes source, std::string_view name, PictureInfo info) {
+    int channels = 0;
+    if (stbi_is_16_bit_from_memory(source.data, source.size)) {
+        const Samples3<stbi_us> samples(
+            stbi_load_16_from_memory(source.data, source.size, &info.width, &info.height, &channels, 3),
+            stbi_image_free);
+        if (samples) return decoded(samples.get(), info);
+    } else {
+        const Samples3<stbi_uc> samples(
+            stbi_load_from_memory(source.data, source.size, &info.width, &info.height, &channels, 3), stbi_image_free);
+        if (samples) return decoded(samples.get(), info);
+    }
+    return Error{fmt::format("{}: a damaged picture: {}", name, stbi_failure_reason())};
+}
+
+}  // namespace
+
+Result<LoadedImage> read_ldr(std::span<const std::byte> bytes, std::string_view name, const ReadOptions& options) {
+    if (!options.ldr)
+        return Error{
+            fmt::format("{}: a picture without high dynamic range, in which suns and lamps are cut off at white; "
+                        "pass --ldr to use it all the same",
+                        name)};
+    if (bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
+        return Error{fmt::format("{}: the picture file is larger than 2 GiB", name)};
+
+    // Check the size, then decode.
+    const StbBytes source{reinterpret_cast<const stbi_uc*>(bytes.data()), static_cast<int>(bytes.size())};
+    PictureInfo info;
+    int channels = 0;
+    if (!stbi_info_from_memory(source.data, source.size, &info.width, &info.height, &channels))
+        return Error{fmt::format("{}: a damaged picture: {}", name, stbi_failure_reason())};
+    if (const Status status = check_picture(bytes, name, info, options); !status) return status.error();
+    Result<Image> image = decode(source, name, info);
+    if (!image) return image.error();
+    return io::inspected({std::move(*image), {}, {}}, name, options);
+}
+
+}  // namespace lobelia

@@ -1,0 +1,19 @@
+// Files that are written whole or not at all.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <string_view>
+
+#include "lobelia/result.h"
+
+namespace lobelia {
+
+/// Writes `bytes` to `path` under a temporary name in the same folder, flushes them to the disk and renames; on failure
+/// what was there before is untouched and the temporary is gone. Links are followed, and what is no regular file (a
+/// pipe, /dev/stdout) is written to directly. Errors name the file and the cause: no such folder, no permission, full.
+[[nodiscard]] Status write_file_atomically(const std::filesystem::path& path, std::span<const std::byte> bytes);
+[[nodiscard]] Status write_file_atomically(const std::filesystem::path& path, std::string_view text);
+
+}  // namespace lobelia

@@ -1,0 +1,52 @@
+// Images into files: OpenEXR with named float channels, and PNG pictures for people.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "lobelia/image.h"
+#include "lobelia/result.h"
+
+namespace lobelia {
+
+/// One channel of an OpenEXR file: pixel i, row by row from the top left, is data[i * stride].
+struct ExrChannel {
+    std::string name;
+    std::span<const float> data;
+    std::size_t stride = 1;
+};
+
+struct ExrOptions {
+    enum class Precision { half, full };
+    /// Half holds 11 bits; finite values beyond +-65504 are stored as that.
+    Precision precision = Precision::full;
+};
+
+/// The bytes of a scan-line OpenEXR file (ZIP). Channels have distinct names and reach all width * height pixels.
+[[nodiscard]] Result<std::string> encode_exr(std::size_t width, std::size_t height,
+                                             std::span<const ExrChannel> channels, const ExrOptions& options = {});
+/// The same with channels R, G, B.
+[[nodiscard]] Result<std::string> encode_exr(const Image& image, const ExrOptions& options = {});
+/// The same into a file, written atomically.
+[[nodiscard]] Status write_exr(const std::filesystem::path& path, const Image& image, const ExrOptions& options = {});
+
+/// A picture of 8-bit sRGB: red, green, blue, row by row from the top left.
+struct Image8 {
+    std::size_t width = 0;
+    std::size_t height = 0;
+    std::vector<std::uint8_t> rgb;
+};
+
+/// `image` times `exposure`, cut to [0, 1] (NaN to 0), through the sRGB curve and rounded.
+[[nodiscard]] Image8 to_srgb(const Image& image, float exposure = 1);
+
+/// The bytes of a PNG file.
+[[nodiscard]] Result<std::string> encode_png(const Image8& picture);
+/// The same into a file, written atomically.
+[[nodiscard]] Status write_png(const std::filesystem::path& path, const Image8& picture);
+
+}  // namespace lobelia
