@@ -1,0 +1,33 @@
+// The basis of real spherical harmonics of degrees 0 to L on the sphere.
+// Ramamoorthi and Hanrahan 2001; Sloan 2008.
+#pragma once
+
+#include "lobelia/harmonics.h"
+#include "lobelia/result.h"
+
+namespace lobelia {
+
+class SphericalHarmonics final : public Basis {
+  public:
+    explicit SphericalHarmonics(std::size_t degree) : harmonics_(degree) {}
+
+    /// sh1 to sh8. Null if the name is none of these.
+    [[nodiscard]] static Result<std::shared_ptr<const Basis>> from_name(std::string_view name);
+
+    [[nodiscard]] std::size_t size() const override { return harmonics_.size(); }
+    void values(DirectionView block, float* rows) const override { harmonics_.values(block, rows); }
+    [[nodiscard]] std::string name() const override;
+    [[nodiscard]] std::string description() const override;
+    [[nodiscard]] Domain domain() const override { return Domain::sphere; }
+    [[nodiscard]] bool is_non_negative() const override { return false; }
+    [[nodiscard]] Matrix gram() const override;
+    [[nodiscard]] std::vector<double> integrals() const override;
+    [[nodiscard]] std::vector<std::string> evaluator_names() const override { return {"convolution"}; }
+    [[nodiscard]] std::shared_ptr<const Evaluator> evaluator(std::string_view name) const override;
+    [[nodiscard]] Rotated rotated(const Rotation& r, std::span<const Rgb> c) const override;
+
+  private:
+    harmonics::Harmonics harmonics_;
+};
+
+}  // namespace lobelia

@@ -1,0 +1,64 @@
+// Codecs: a basis, an encoder and an evaluator together, made from names such as "sg12/least-squares/hill".
+#pragma once
+
+#include <string_view>
+
+#include "lobelia/encode/encoder.h"
+#include "lobelia/result.h"
+
+namespace lobelia {
+
+/// The three axes of a codec, by name.
+struct CodecName {
+    std::string basis, encoder, evaluator;
+    [[nodiscard]] std::string str() const { return basis + "/" + encoder + "/" + evaluator; }
+    friend bool operator==(const CodecName&, const CodecName&) = default;
+};
+
+/// The run-time face: batches in, batches out. Immutable; safe to share between threads.
+class Codec {
+  public:
+    Codec(CodecName name, std::shared_ptr<const Encoder> encoder, std::shared_ptr<const Evaluator> evaluator)
+        : name_(std::move(name)), encoder_(std::move(encoder)), evaluator_(std::move(evaluator)) {}
+
+    [[nodiscard]] const CodecName& name() const { return name_; }
+    [[nodiscard]] const Basis& basis() const { return encoder_->basis(); }
+    [[nodiscard]] const std::shared_ptr<const Encoder>& encoder() const { return encoder_; }
+    [[nodiscard]] const Evaluator& evaluator() const { return *evaluator_; }
+
+    /// Coefficients of all samples at once.
+    [[nodiscard]] std::vector<Rgb> encode(SampleView samples) const;
+    /// L(w) [W/(m^2 sr)] at each direction.
+    void radiance(std::span<const Rgb> c, DirectionView directions, MutableColourView out) const;
+    /// E(n) [W/m^2] at each normal.
+    void irradiance(std::span<const Rgb> c, DirectionView normals, MutableColourView out) const;
+
+  private:
+    CodecName name_;
+    std::shared_ptr<const Encoder> encoder_;
+    std::shared_ptr<const Evaluator> evaluator_;
+};
+
+/// The lists behind every codec (codecs.cpp holds them).
+[[nodiscard]] std::vector<std::string> basis_names();
+[[nodiscard]] std::vector<std::string> encoder_names();
+/// Encoders that make sense for a basis: the non-negative ones only where its functions are non-negative.
+[[nodiscard]] std::vector<std::string> encoder_names(const Basis& basis);
+/// The sensible product of the lists.
+[[nodiscard]] std::vector<CodecName> all_codecs();
+
+/// A listed basis or any other member of the listed families, such as "sg24" or "sg:lobes.txt".
+[[nodiscard]] Result<std::shared_ptr<const Basis>> make_basis(std::string_view name);
+[[nodiscard]] Result<std::shared_ptr<const Encoder>> make_encoder(std::string_view name,
+                                                                  std::shared_ptr<const Basis> basis);
+[[nodiscard]] Result<std::shared_ptr<const Evaluator>> make_evaluator(std::string_view name, const Basis& basis);
+/// From "basis/encoder/evaluator"; the error of an unknown name lists the nearest known ones.
+[[nodiscard]] Result<Codec> make_codec(std::string_view name);
+/// The parts of "basis/encoder/evaluator", unchecked but for their number.
+[[nodiscard]] Result<CodecName> parse_codec_name(std::string_view name);
+
+/// The known names nearest to `name` by edit distance, nearest first, at most three, as " (did you mean ...?)"; empty
+/// where none is near.
+[[nodiscard]] std::string nearest_names(std::string_view name, std::span<const std::string> known);
+
+}  // namespace lobelia

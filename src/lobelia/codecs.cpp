@@ -1,0 +1,185 @@
+// THE lists: bases, encoders, and through the bases their evaluators. Every codec follows from them.
+#include <algorithm>
+#include <array>
+#include <numeric>
+
+#include "lobelia/bases/spherical_gaussians.h"
+#include "lobelia/bases/spherical_harmonics.h"
+#include "lobelia/codec.h"
+#include "lobelia/encode/moments.h"
+#include "lobelia/encode/sequential.h"
+
+namespace lobelia {
+namespace {
+
+using BasisPtr = std::shared_ptr<const Basis>;
+using EncoderPtr = std::shared_ptr<const Encoder>;
+
+/// The listed bases. A family (below) makes each from its name, and may know more names than are listed.
+constexpr std::array k_bases = {"sg12", "sg12h", "sh1", "sh2", "sh3", "sh4", "sh5", "sh6", "sh7", "sh8"};
+
+constexpr std::array k_families = {&SphericalGaussians::from_name, &SphericalHarmonics::from_name};
+
+enum class Needs { any_basis, non_negative_basis };
+
+struct EncoderEntry {
+    const char* name;
+    Needs needs;
+    EncoderPtr (*make)(BasisPtr);
+};
+
+template <MomentSolver solver>
+EncoderPtr moments(BasisPtr basis) {
+    return make_moment_encoder(std::move(basis), solver);
+}
+template <Sign sign>
+EncoderPtr progressive(BasisPtr basis) {
+    return make_progressive(std::move(basis), sign);
+}
+template <Sign sign>
+EncoderPtr running_average(BasisPtr basis) {
+    return make_running_average(std::move(basis), sign);
+}
+
+constexpr std::array k_encoders = {
+    EncoderEntry{"projection", Needs::any_basis, moments<MomentSolver::projection>},
+    EncoderEntry{"running-average", Needs::non_negative_basis, running_average<Sign::any>},
+    EncoderEntry{"running-average-nn", Needs::non_negative_basis, running_average<Sign::non_negative>},
+    EncoderEntry{"progressive", Needs::any_basis, progressive<Sign::any>},
+    EncoderEntry{"progressive-nn", Needs::non_negative_basis, progressive<Sign::non_negative>},
+    EncoderEntry{"moments", Needs::any_basis, moments<MomentSolver::analytic_gram>},
+    EncoderEntry{"least-squares", Needs::any_basis, moments<MomentSolver::sampled_gram>},
+    EncoderEntry{"regularised", Needs::any_basis, moments<MomentSolver::regularised>},
+    EncoderEntry{"matrix-gain", Needs::any_basis, make_matrix_gain},
+    EncoderEntry{"nnls", Needs::non_negative_basis, moments<MomentSolver::non_negative>},
+    EncoderEntry{"joint", Needs::any_basis, moments<MomentSolver::joint>},
+    EncoderEntry{"joint-nn", Needs::non_negative_basis, moments<MomentSolver::joint_non_negative>},
+};
+
+bool suits(const EncoderEntry& entry, const Basis& basis) {
+    return entry.needs == Needs::any_basis || basis.is_non_negative();
+}
+
+/// Levenshtein's edit distance.
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    std::iota(row.begin(), row.end(), std::size_t{0});
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        std::size_t diagonal = row[0];
+        row[0] = i + 1;
+        for (std::size_t j = 0; j < b.size(); ++j) {
+            const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
+            diagonal = row[j + 1];
+            row[j + 1] = std::min({replaced, row[j] + 1, row[j + 1] + 1});
+        }
+    }
+    return row.back();
+}
+
+std::string quoted(std::string_view name) { return "\"" + std::string(name) + "\""; }
+
+}  // namespace
+
+std::vector<std::string> basis_names() { return {k_bases.begin(), k_bases.end()}; }
+
+std::vector<std::string> encoder_names() {
+    std::vector<std::string> names;
+    for (const auto& entry : k_encoders) names.emplace_back(entry.name);
+    return names;
+}
+
+std::vector<std::string> encoder_names(const Basis& basis) {
+    std::vector<std::string> names;
+    for (const auto& entry : k_encoders)
+        if (suits(entry, basis)) names.emplace_back(entry.name);
+    return names;
+}
+
+std::vector<CodecName> all_codecs() {
+    std::vector<CodecName> codecs;
+    for (const char* name : k_bases) {
+        const BasisPtr basis = make_basis(name).value();
+        for (const auto& encoder : encoder_names(*basis))
+            for (const auto& evaluator : basis->evaluator_names()) codecs.push_back({name, encoder, evaluator});
+    }
+    return codecs;
+}
+
+Result<BasisPtr> make_basis(std::string_view name) {
+    for (const auto& from_name : k_families) {
+        auto basis = from_name(name);
+        if (!basis || *basis) return basis;
+    }
+    return Error{"unknown basis " + quoted(name) + nearest_names(name, basis_names())};
+}
+
+Result<EncoderPtr> make_encoder(std::string_view name, BasisPtr basis) {
+    for (const auto& entry : k_encoders) {
+        if (entry.name != name) continue;
+        if (!suits(entry, *basis))
+            return Error{"encoder " + quoted(name) + " needs a basis of non-negative functions, which " +
+                         basis->name() + " is not"};
+        return entry.make(std::move(basis));
+    }
+    return Error{"unknown encoder " + quoted(name) + nearest_names(name, encoder_names())};
+}
+
+Result<std::shared_ptr<const Evaluator>> make_evaluator(std::string_view name, const Basis& basis) {
+    if (auto evaluator = basis.evaluator(name)) return evaluator;
+    return Error{"unknown evaluator " + quoted(name) + " for basis " + basis.name() +
+                 nearest_names(name, basis.evaluator_names())};
+}
+
+Result<CodecName> parse_codec_name(std::string_view name) {
+    // The basis may hold slashes itself (a file's path): split at the last two.
+    const auto last = name.rfind('/');
+    const auto first = last == std::string_view::npos || last == 0 ? last : name.rfind('/', last - 1);
+    if (last == std::string_view::npos || first == std::string_view::npos) {
+        std::vector<std::string> known;
+        for (const auto& codec : all_codecs()) known.push_back(codec.str());
+        return Error{"codec " + quoted(name) + " is not of the form basis/encoder/evaluator" +
+                     nearest_names(name, known)};
+    }
+    return CodecName{std::string(name.substr(0, first)), std::string(name.substr(first + 1, last - first - 1)),
+                     std::string(name.substr(last + 1))};
+}
+
+Result<Codec> make_codec(std::string_view name) {
+    auto parts = parse_codec_name(name);
+    if (!parts) return parts.error();
+    const auto in_codec = [&](const Error& error) { return Error{"codec " + quoted(name) + ": " + error.message}; };
+    auto basis = make_basis(parts->basis);
+    if (!basis) return in_codec(basis.error());
+    auto encoder = make_encoder(parts->encoder, *basis);
+    if (!encoder) return in_codec(encoder.error());
+    auto evaluator = make_evaluator(parts->evaluator, **basis);
+    if (!evaluator) return in_codec(evaluator.error());
+    return Codec(*parts, *encoder, *evaluator);
+}
+
+std::string nearest_names(std::string_view name, std::span<const std::string> known) {
+    std::vector<std::pair<std::size_t, std::string>> ranked;
+    for (const auto& candidate : known) ranked.emplace_back(edit_distance(name, candidate), candidate);
+    std::stable_sort(ranked.begin(), ranked.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    std::string text;
+    for (std::size_t i = 0; i < std::min<std::size_t>(3, ranked.size()); ++i)
+        if (ranked[i].first <= std::max<std::size_t>(3, name.size() / 2))
+            text += (text.empty() ? "" : ", ") + ranked[i].second;
+    return text.empty() ? "" : " (did you mean " + text + "?)";
+}
+
+std::vector<Rgb> Codec::encode(SampleView samples) const {
+    Accumulator accumulator(encoder_);
+    accumulator.add(samples);
+    return accumulator.solve();
+}
+
+void Codec::radiance(std::span<const Rgb> c, DirectionView directions, MutableColourView out) const {
+    evaluate(basis(), c, directions, out);
+}
+
+void Codec::irradiance(std::span<const Rgb> c, DirectionView normals, MutableColourView out) const {
+    evaluator_->irradiance(c, normals, out);
+}
+
+}  // namespace lobelia

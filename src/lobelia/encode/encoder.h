@@ -1,0 +1,54 @@
+// What an encoder is: an accumulator with three verbs, add, merge and solve, over a state that is a span of floats.
+#pragma once
+
+#include "lobelia/basis.h"
+
+namespace lobelia {
+
+/// Whether merging the states of two halves gives what one pass over both would: sums do, learned estimates do not.
+enum class Merging { exact, approximate };
+
+/// Finds the coefficients of a linear basis from samples as they arrive. An encoder is immutable and shared; what it
+/// has seen is in a state of `state_size()` floats that the caller keeps (one per texel or probe), that threads merge
+/// and that checkpoints store. A state of zeros has seen nothing.
+class Encoder {
+  public:
+    explicit Encoder(std::shared_ptr<const Basis> basis) : basis_(std::move(basis)) {}
+    virtual ~Encoder() = default;
+
+    [[nodiscard]] const Basis& basis() const { return *basis_; }
+    [[nodiscard]] virtual std::size_t state_size() const = 0;
+    [[nodiscard]] virtual Merging merging() const = 0;
+    /// Whether all coefficients are >= 0.
+    [[nodiscard]] virtual bool is_non_negative() const { return false; }
+
+    virtual void add(std::span<float> state, SampleView samples) const = 0;
+    virtual void merge(std::span<float> state, std::span<const float> other) const = 0;
+    /// Coefficients from what was seen; zeros where that was nothing. `c` has basis().size() entries.
+    virtual void solve(std::span<const float> state, std::span<Rgb> c) const = 0;
+
+  private:
+    std::shared_ptr<const Basis> basis_;
+};
+
+/// An encoder with a state of its own.
+class Accumulator {
+  public:
+    explicit Accumulator(std::shared_ptr<const Encoder> encoder)
+        : encoder_(std::move(encoder)), state_(encoder_->state_size()) {}
+
+    void add(SampleView samples) { encoder_->add(state_, samples); }
+    void merge(const Accumulator& other) { encoder_->merge(state_, other.state_); }
+    [[nodiscard]] std::vector<Rgb> solve() const {
+        std::vector<Rgb> c(encoder_->basis().size());
+        encoder_->solve(state_, c);
+        return c;
+    }
+    [[nodiscard]] std::span<const float> state() const { return state_; }
+
+  private:
+    std::shared_ptr<const Encoder> encoder_;
+    std::vector<float> state_;
+};
+
+}  // namespace lobelia

@@ -1,0 +1,39 @@
+// Encoders whose state is a sum of moments: m = sum w B v and, where wanted, G = sum w B B^T. Several solvers read them.
+// Sloan 2013 (streaming moments); Bro and de Jong 1997 (fast NNLS); the regularised Gram and the joint norm are new.
+#pragma once
+
+#include "lobelia/encode/encoder.h"
+
+namespace lobelia {
+
+/// projection: c_i = s m_i, with one s such that a constant environment keeps its energy; exact for orthonormal bases.
+/// analytic_gram: G c = m with the exact Gram matrix. sampled_gram: with the sampled one, which is batch least squares.
+/// regularised: their blend (1 - k) sampled + k exact, k = n / (N + n), n coefficients, N samples: good at every count.
+/// non_negative: batch least squares with c >= 0 per channel. joint, joint_non_negative: the least
+/// |fit - L|^2 / |L|^2 + w |E_fit - E|^2 / |E|^2, radiance and irradiance together.
+enum class MomentSolver {
+    projection,
+    analytic_gram,
+    sampled_gram,
+    regularised,
+    non_negative,
+    joint,
+    joint_non_negative
+};
+
+struct MomentOptions {
+    double irradiance_weight = 1;  ///< w of the joint norm, 0 and up
+};
+
+[[nodiscard]] std::shared_ptr<const Encoder> make_moment_encoder(std::shared_ptr<const Basis> basis,
+                                                                 MomentSolver solver,
+                                                                 const MomentOptions& options = {});
+
+/// The b >= 0 with the least b^T G b - 2 m^T b, G symmetric positive definite (row by row): fast NNLS.
+[[nodiscard]] std::vector<double> non_negative_least_squares(const Matrix& gram, std::span<const double> m);
+
+/// Ordinary least squares by Householder QR on the full design matrix, in double precision: the oracle. Slow and
+/// memory-hungry on purpose: samples x size().
+[[nodiscard]] std::vector<Rgb> least_squares_by_qr(const Basis& basis, SampleView samples);
+
+}  // namespace lobelia

@@ -1,0 +1,59 @@
+// Latitude-longitude environments: which texel looks where, samples and exact irradiance from them, resizing.
+#pragma once
+
+#include <cstdint>
+
+#include "lobelia/image.h"
+#include "lobelia/sample.h"
+
+namespace lobelia {
+
+/// The mapping of a latitude-longitude grid of `width` x `height` texels; y is the polar axis, docs/conventions.md.
+struct LatLong {
+    std::size_t width = 0;
+    std::size_t height = 0;
+
+    [[nodiscard]] std::size_t size() const { return width * height; }
+    /// Direction of the continuous position (u, v) in [0, 1]^2: theta = pi (2u - 1), phi = pi v,
+    /// d = (sin phi sin theta, cos phi, -sin phi cos theta).
+    [[nodiscard]] static Vec3 direction(double u, double v);
+    /// The inverse; u = (1 + atan2(x, -z) / pi) / 2 in [0, 1], v = acos(y) / pi.
+    struct Position {
+        double u = 0, v = 0;
+    };
+    [[nodiscard]] static Position position(Vec3 direction);
+    /// Direction of the centre of texel `index` = y * width + x.
+    [[nodiscard]] Vec3 direction(std::size_t index) const;
+    /// Index of the texel that holds `direction`.
+    [[nodiscard]] std::size_t index(Vec3 direction) const;
+    /// Solid angle [sr] of a texel of row y; over all texels they sum to 4 pi.
+    [[nodiscard]] double solid_angle(std::size_t y) const;
+    /// All texel centres, row by row.
+    [[nodiscard]] Directions directions() const;
+    /// All solid angles, row by row.
+    [[nodiscard]] std::vector<float> solid_angles() const;
+
+    friend bool operator==(const LatLong&, const LatLong&) = default;
+};
+
+[[nodiscard]] inline LatLong lat_long(const Image& image) { return {image.width, image.height}; }
+
+/// The environment resampled to `target` by exact overlap of texels in solid angle: the integral over any set of whole
+/// target texels is kept (to rounding), so energy is, too. The target's texels tile the circle of longitudes, hence the
+/// seam at u = 0 needs no special case. Precondition: both sizes at least 1 x 1.
+[[nodiscard]] Image resize(const Image& environment, LatLong target);
+
+/// The largest grid of the same aspect with at most `most_texels` texels, by a whole-number or the least possible
+/// reduction; the grid itself where it is small enough.
+[[nodiscard]] LatLong reduced_grid(LatLong grid, std::size_t most_texels);
+
+/// Every texel once, in row order, weighted by its solid angle; for the hemisphere only those with z > 0.
+[[nodiscard]] Samples texel_samples(const Image& environment, Domain domain = Domain::sphere);
+
+/// A sample for each direction: the value of the nearest texel, and an equal share of the domain.
+[[nodiscard]] Samples directed_samples(const Image& environment, DirectionView directions, Domain domain);
+
+/// Exact irradiance E(n) = sum_j L_j omega_j max(0, n . d_j) [W/m^2] of `samples` at each normal.
+void irradiance_sum(SampleView samples, DirectionView normals, MutableColourView out);
+
+}  // namespace lobelia

@@ -1,0 +1,66 @@
+// Quadrature rules by Newton's method on Legendre polynomials, and inner products of function sets over them.
+#include "lobelia/quadrature.h"
+
+#include "lobelia/basis.h"
+
+namespace lobelia {
+
+GaussLegendre::GaussLegendre(std::size_t count, double low, double high) : nodes(count), weights(count) {
+    const auto n = static_cast<double>(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        // Start from the asymptotic zero, then polish P_n(x) = 0.
+        double x = std::cos(k_pi * (static_cast<double>(i) + 0.75) / (n + 0.5)), slope = 1;
+        for (int iteration = 0; iteration < 100; ++iteration) {
+            double p = 1, previous = 0;
+            for (std::size_t k = 1; k <= count; ++k) {
+                const auto m = static_cast<double>(k);
+                const double next = ((2 * m - 1) * x * p - (m - 1) * previous) / m;
+                previous = p;
+                p = next;
+            }
+            slope = n * (x * p - previous) / (x * x - 1);
+            const double step = p / slope;
+            x -= step;
+            if (std::abs(step) < 1e-15) break;
+        }
+        nodes[count - 1 - i] = low + (high - low) * (x + 1) / 2;
+        weights[count - 1 - i] = (high - low) / ((1 - x * x) * slope * slope);
+    }
+}
+
+SphereRule product_rule(Domain domain, std::size_t heights) {
+    const GaussLegendre z_rule(heights, domain == Domain::sphere ? -1 : 0, 1);
+    const std::size_t azimuths = 2 * heights;
+    SphereRule rule{Directions(heights * azimuths), {}};
+    rule.weights.reserve(heights * azimuths);
+    for (std::size_t i = 0; i < heights; ++i)
+        for (std::size_t j = 0; j < azimuths; ++j) {
+            const double z = z_rule.nodes[i], r = std::sqrt(1 - z * z);
+            const double phi = 2 * k_pi * (static_cast<double>(j) + 0.5) / static_cast<double>(azimuths);
+            set_entry(rule.directions.view(), i * azimuths + j,
+                      Vec3{static_cast<float>(r * std::cos(phi)), static_cast<float>(r * std::sin(phi)),
+                           static_cast<float>(z)});
+            rule.weights.push_back(z_rule.weights[i] * 2 * k_pi / static_cast<double>(azimuths));
+        }
+    return rule;
+}
+
+std::vector<double> inner_products(const FunctionSet& f, const FunctionSet& g, const SphereRule& rule) {
+    std::vector<double> result(f.size() * g.size());
+    std::vector<float> f_rows(f.size() * k_block_size), g_rows(g.size() * k_block_size);
+    for_each_part(rule.directions.view(), k_block_size, [&](DirectionView block, std::size_t begin) {
+        f.values(block, f_rows.data());
+        g.values(block, g_rows.data());
+        for (std::size_t i = 0; i < f.size(); ++i)
+            for (std::size_t k = 0; k < g.size(); ++k) {
+                double sum = 0;
+                for (std::size_t j = 0; j < block.size; ++j)
+                    sum += rule.weights[begin + j] * static_cast<double>(f_rows[i * k_block_size + j]) *
+                           static_cast<double>(g_rows[k * k_block_size + j]);
+                result[i * g.size() + k] += sum;
+            }
+    });
+    return result;
+}
+
+}  // namespace lobelia
