@@ -1,0 +1,74 @@
+// From linear light to pixels: exposure, tone curve, sRGB; and the colour scale of errors.
+"use strict";
+
+/// How all pictures are shown. `exposure` is in EV above the automatic one, `turn` in degrees.
+const view = {
+    exposure: 0, tone: "clamp", mark_negative: true, turn: 0,
+    error_scale: { radiance: 1, irradiance: 1 },  // the error at the end of the colour scale
+};
+
+const luminance = ([r, g, b]) => 0.2126 * r + 0.7152 * g + 0.0722 * b;
+
+/// The factor that shows the reference's mean radiance, which is also the mean of E/pi, as a quarter of white: lit
+/// spheres come out as a light grey, and the brighter side has two stops of room.
+const automatic_gain = (() => {
+    const mean = luminance(report.environment?.mean_radiance ?? [0.25, 0.25, 0.25]);
+    return mean > 0 ? 0.25 / mean : 1;
+})();
+const gain = () => automatic_gain * 2 ** view.exposure;
+
+/// Linear to linear in [0, 1].
+const tone_curves = {
+    clamp: (x) => Math.min(x, 1),
+    reinhard: (x) => x / (1 + x),
+    filmic: (x) => Math.min((x * (2.51 * x + 0.03)) / (x * (2.43 * x + 0.59) + 0.14), 1),  // Narkowicz 2015, fits ACES
+};
+
+/// sRGB codes of 2^16 linear steps: rounding to a step moves a result by less than 1/19 of a code, where the curve is
+/// steepest (12.92 * 255 / 65535).
+const k_linear_steps = 65535;
+const srgb_codes = Uint8ClampedArray.from({ length: k_linear_steps + 1 }, (_, i) => {
+    const x = i / k_linear_steps;
+    return Math.round(255 * (x <= 0.0031308 ? 12.92 * x : 1.055 * x ** (1 / 2.4) - 0.055));
+});
+
+const k_negative_colour = [230, 30, 170];
+
+/// Writes the sRGB pixel of a linear colour to `out` at `at`; alpha is left alone.
+function write_colour(r, g, b, scale, curve, out, at) {
+    const least = Math.min(r, g, b);
+    if (view.mark_negative && !(least >= 0)) {
+        // Keep the magnitude visible: the more negative, the brighter. Not-a-number is marked alike, at full strength.
+        const strength = Number.isNaN(least) ? 1 : 0.4 + 0.6 * curve(-least * scale) ** (1 / 2.4);
+        for (let k = 0; k < 3; ++k) out[at + k] = k_negative_colour[k] * strength;
+        return;
+    }
+    out[at] = srgb_codes[(curve(Math.max(r * scale, 0)) * k_linear_steps + 0.5) | 0];
+    out[at + 1] = srgb_codes[(curve(Math.max(g * scale, 0)) * k_linear_steps + 0.5) | 0];
+    out[at + 2] = srgb_codes[(curve(Math.max(b * scale, 0)) * k_linear_steps + 0.5) | 0];
+}
+
+/// Inferno at nine equal steps: perceptually uniform, dark where there is no error.
+const k_inferno = [[0, 0, 4], [31, 12, 72], [85, 15, 109], [136, 34, 106], [186, 54, 85], [227, 89, 51], [249, 140, 10],
+                   [249, 201, 50], [252, 255, 164]];
+
+/// Its 256 colours, packed r, g, b.
+const error_colours = Uint8ClampedArray.from({ length: 256 * 3 }, (_, i) => {
+    const position = (Math.trunc(i / 3) / 255) * (k_inferno.length - 1);
+    const below = Math.min(Math.floor(position), k_inferno.length - 2), t = position - below;
+    return Math.round(k_inferno[below][i % 3] * (1 - t) + k_inferno[below + 1][i % 3] * t);
+});
+
+function write_error(error, scale, out, at) {
+    const entry = 3 * Math.min(255, Math.round((error / scale) * 255));
+    for (let k = 0; k < 3; ++k) out[at + k] = error_colours[entry + k];
+}
+
+const k_error_scales = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1];
+
+/// The least scale that leaves room above what is typical: twice the median of the methods' mean errors.
+function automatic_error_scale(shown, quantity) {
+    const errors = shown.map((method) => method[quantities[quantity].smape]).filter(Number.isFinite).sort((a, b) => a - b);
+    const typical = errors.length ? errors[Math.trunc(errors.length / 2)] : 1;
+    return k_error_scales.find((scale) => scale >= 2 * typical) ?? 1;
+}

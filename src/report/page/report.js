@@ -1,0 +1,98 @@
+// Puts the page together: header, controls, and what changes what.
+"use strict";
+
+const by_id = (id) => document.getElementById(id);
+
+function build_header() {
+    const { environment = {}, settings = {} } = report;
+    document.title = `${environment.name ?? "Environment"} – Lobelia report`;
+    by_id("brand").textContent = settings.recipe ? `Lobelia, the ${settings.recipe} recipe` : "Lobelia, comparison of methods";
+    by_id("environment-name").textContent = environment.name ?? "Environment";
+    by_id("made-by").textContent = `Made by Lobelia ${report.lobelia ?? ""}, report format ${report.format ?? "unknown"}. Charts: Chart.js, MIT licence.`;
+
+    const size = environment.width ? `${environment.width} × ${environment.height} texels` : null;
+    const source = environment.source_width && environment.source_width !== environment.width ? `, reduced from ${environment.source_width} × ${environment.source_height}` : "";
+    const facts = [["Environment", size && size + source], ["Mean radiance", environment.mean_radiance && environment.mean_radiance.map(figure_text).join("  ")],
+                   ["Methods", String(methods.length)]];
+    for (const [key, value] of Object.entries(settings)) if (value !== null && key !== "recipe") facts.push([key.replaceAll("_", " "), setting_text(value)]);
+    by_id("summary").append(...facts.filter(([, value]) => value).map(([name, value]) => element("div", {}, element("dt", {}, name), element("dd", {}, value))));
+
+    const warnings = environment.warnings ?? [];
+    by_id("warnings").hidden = warnings.length === 0;
+    by_id("warnings").append(...warnings.map((text) => element("li", {}, text)));
+}
+
+function setting_text(value) {
+    if (typeof value === "number") return Number.isInteger(value) ? figure_text_whole(value) : figure_text(value);
+    return typeof value === "object" ? JSON.stringify(value) : String(value);
+}
+
+// ---- Controls
+
+function set_exposure(ev) {
+    view.exposure = Number(ev);
+    by_id("exposure").value = ev;
+    by_id("exposure-text").textContent = `${signed_text(view.exposure, 1)} EV`;
+    by_id("exposure-text").title = `Values are multiplied by ${figure_text(gain())}`;
+    repaint();
+}
+
+function turn_spheres(degrees) {
+    view.turn = ((((degrees + 180) % 360) + 360) % 360) - 180;
+    by_id("turn").value = view.turn;
+    by_id("turn-text").textContent = `${signed_text(Math.round(view.turn), 0)}°`;
+    repaint(".sphere");
+}
+
+function connect_controls() {
+    by_id("exposure").addEventListener("input", (event) => set_exposure(event.target.value));
+    by_id("exposure-reset").addEventListener("click", () => set_exposure(0));
+    by_id("turn").addEventListener("input", (event) => turn_spheres(Number(event.target.value)));
+    by_id("turn-reset").addEventListener("click", () => turn_spheres(0));
+    by_id("tone").addEventListener("change", (event) => {
+        view.tone = event.target.value;
+        repaint();
+    });
+    by_id("negative").addEventListener("change", (event) => {
+        view.mark_negative = event.target.checked;
+        repaint();
+    });
+    by_id("layout").addEventListener("change", (event) => {
+        picture_table.layout = event.target.value;
+        lay_out_pictures();
+    });
+    by_id("pictures-restore").addEventListener("click", () => {
+        picture_table.shown = [...picture_table.chosen];
+        build_picture_table();
+        document.dispatchEvent(new CustomEvent("pins-changed"));
+    });
+    by_id("methods").addEventListener("keydown", on_method_key);
+}
+
+function connect_page() {
+    document.addEventListener("pins-changed", mark_rows);
+    document.addEventListener("detail-changed", mark_rows);
+    document.addEventListener("keydown", (event) => {
+        if (event.key === "Escape") close_detail();
+    });
+    new ResizeObserver(([{ target }]) => document.documentElement.style.setProperty("--toolbar-height", `${target.offsetHeight}px`)).observe(by_id("toolbar"));
+    addEventListener("resize", () => {
+        lay_out_pictures();
+        repaint(".sphere");
+    });
+    addEventListener("scroll", hide_probe, { passive: true });
+    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", build_plots);
+}
+
+by_id("pictures-rule").textContent = picture_table.chosen.length === methods.length
+    ? "All methods of this report beside the reference."
+    : "The method of lowest irradiance error from each family of bases; pin others from the table below.";
+build_header();
+build_filters();
+build_picture_table();
+build_method_table();
+connect_controls();
+connect_page();
+set_exposure(0);
+turn_spheres(0);
+build_plots();

@@ -1,0 +1,141 @@
+// The report's page: it loads nothing, no string escapes from its script element, pictures keep their half floats.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <vector>
+
+#include "report/html.h"
+
+namespace lobelia {
+namespace {
+
+/// The value of IEEE 754 binary16 `bits`, from its definition.
+double value_of_half(std::uint16_t bits) {
+    const double sign = bits & 0x8000 ? -1 : 1;
+    const int exponent = bits >> 10 & 31, mantissa = bits & 1023;
+    if (exponent == 31) return mantissa != 0 ? std::numeric_limits<double>::quiet_NaN() : sign * HUGE_VAL;
+    return sign * (exponent == 0 ? std::ldexp(mantissa, -24) : std::ldexp(1024 + mantissa, exponent - 25));
+}
+
+/// The bytes of base64 without padding, from its definition.
+std::vector<std::uint8_t> bytes_of_base64(const std::string& text) {
+    const std::string alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::vector<std::uint8_t> bytes;
+    std::uint32_t bits = 0, count = 0;
+    for (const char c : text) {
+        bits = bits << 6 | static_cast<std::uint32_t>(alphabet.find(c));
+        count += 6;
+        if (count < 8) continue;
+        count -= 8;
+        bytes.push_back(static_cast<std::uint8_t>(bits >> count));
+    }
+    return bytes;
+}
+
+std::vector<double> values_of(const Picture& picture) {
+    const auto bytes = bytes_of_base64(picture.base64_half);
+    std::vector<double> values;
+    for (std::size_t i = 0; i + 1 < bytes.size(); i += 2)
+        values.push_back(value_of_half(static_cast<std::uint16_t>(bytes[i] | bytes[i + 1] << 8)));
+    return values;
+}
+
+/// What stands between `<script ... id="name">` and the first thing that a browser would take for its end.
+std::string script_element(const std::string& html, const std::string& name) {
+    const std::size_t begin = html.find('>', html.find("id=\"" + name + "\"")) + 1;
+    return html.substr(begin, html.find("</script", begin) - begin);
+}
+
+nlohmann::json small_report(const std::string& name) {
+    return {
+        {"lobelia", "0.1.0"}, {"format", 1}, {"environment", {{"name", name}}}, {"methods", nlohmann::json::array()}};
+}
+
+TEST(HalfFloat, EveryHalfRoundTrips) {
+    for (std::uint32_t bits = 0; bits < 0x10000; ++bits) {
+        const double value = value_of_half(static_cast<std::uint16_t>(bits));
+        if (!std::isfinite(value)) continue;
+        ASSERT_EQ(half_from_float(static_cast<float>(value)), bits);
+    }
+}
+
+TEST(HalfFloat, RoundsToNearestTiesToEven) {
+    for (std::uint16_t bits = 0; bits < 0x7bff; ++bits) {
+        const double low = value_of_half(bits), high = value_of_half(static_cast<std::uint16_t>(bits + 1));
+        const auto middle = static_cast<float>((low + high) / 2);
+        ASSERT_EQ(half_from_float(std::nextafter(middle, 0.0f)), bits);
+        ASSERT_EQ(half_from_float(std::nextafter(middle, 1e9f)), bits + 1);
+        ASSERT_EQ(half_from_float(middle), bits + (bits & 1));
+    }
+}
+
+TEST(HalfFloat, ClampsHugeValuesAndKeepsNotANumber) {
+    for (const float huge : {65504.0f, 65519.9f, 65520.0f, 1e10f, std::numeric_limits<float>::infinity()}) {
+        EXPECT_EQ(value_of_half(half_from_float(huge)), 65504.0);
+        EXPECT_EQ(value_of_half(half_from_float(-huge)), -65504.0);
+    }
+    EXPECT_TRUE(std::isnan(value_of_half(half_from_float(std::numeric_limits<float>::quiet_NaN()))));
+    EXPECT_EQ(half_from_float(1e-30f), 0);
+}
+
+TEST(Picture, RoundTripsNegativeTinyAndHugeValues) {
+    const std::vector<Rgb> pixels = {{-1.5f, 0x1p-24f, 1e9f}, {0, -0x1p-14f, -1e9f}, {0.25f, 1024, 6e-5f}};
+    const auto values = values_of(encode_picture(pixels, 3, 1));
+    ASSERT_EQ(values.size(), 9u);
+    EXPECT_EQ((std::vector<double>(values.begin(), values.end() - 1)),
+              (std::vector<double>{-1.5, 0x1p-24, 65504, 0, -0x1p-14, -65504, 0.25, 1024}));
+    EXPECT_NEAR(values[8], 6e-5, 0x1p-25);
+}
+
+TEST(Picture, PlanesGiveWhatPixelsGive) {
+    const std::vector<Rgb> pixels = {{1, 2, 3}, {-4, 5, 6}, {7, 8, -9}, {10, 11, 12}, {13, 14, 15}, {0, 0, 0.1f}};
+    Colours colours(pixels.size());
+    for (std::size_t i = 0; i < pixels.size(); ++i) set_entry(colours.view(), i, pixels[i]);
+    const Picture from_planes = encode_picture(ColourView(colours), 3, 2), from_pixels = encode_picture(pixels, 3, 2);
+    EXPECT_EQ(from_planes.base64_half, from_pixels.base64_half);
+    EXPECT_EQ(from_planes.width, 3u);
+    EXPECT_EQ(from_planes.height, 2u);
+}
+
+TEST(ReportPage, LoadsNothing) {
+    const std::string html = report_html(small_report("sky.hdr"), {});
+    const std::regex load(R"re((\b(src|href)\s*=\s*["']|url\(\s*["']?|@import\s*["']?)\s*(https?:)?//)re");
+    EXPECT_FALSE(std::regex_search(html, load));
+    EXPECT_EQ(html.find("<link"), std::string::npos);
+    EXPECT_EQ(html.find("<script src"), std::string::npos);
+    EXPECT_NE(html.find("default-src 'none'"), std::string::npos);
+}
+
+TEST(ReportPage, FillsEveryMark) {
+    const std::string html = report_html(small_report("sky.hdr"), {});
+    for (const std::string mark : {"{{style}}", "{{scripts}}", "{{report}}", "{{pictures}}"})
+        EXPECT_EQ(html.find(mark), std::string::npos) << mark;
+    EXPECT_EQ(html.substr(html.size() - 8), "</html>\n");
+}
+
+TEST(ReportPage, NoNameEndsItsScriptElement) {
+    const std::string name = "</script><script>alert(1)</script><!-- \"quoted\" \\ .hdr";
+    PictureSet pictures;
+    pictures.radiance[name] = encode_picture(std::array{Rgb{1, 2, 3}}, 1, 1);
+    pictures.references[name] = {pictures.radiance[name], pictures.radiance[name]};
+    const std::string html = report_html(small_report(name), pictures);
+
+    EXPECT_EQ(html.find("alert(1)</script>"), std::string::npos);
+    EXPECT_EQ(nlohmann::json::parse(script_element(html, "report-data")), small_report(name));
+    const auto parsed = nlohmann::json::parse(script_element(html, "picture-data"));
+    EXPECT_EQ(parsed["radiance"][name]["half"], pictures.radiance[name].base64_half);
+    EXPECT_EQ(parsed["references"][name]["irradiance_over_pi"]["width"], 1);
+    EXPECT_TRUE(parsed["irradiance_over_pi"].empty());
+}
+
+TEST(ReportPage, ReplacesBytesThatAreNotUtf8) {
+    const std::string html = report_html(small_report("caf\xe9.hdr"), {});
+    EXPECT_EQ(nlohmann::json::parse(script_element(html, "report-data"))["environment"]["name"], "caf\uFFFD.hdr");
+}
+
+}  // namespace
+}  // namespace lobelia
