@@ -48,7 +48,7 @@ Status check_size(std::string_view name, std::int64_t width, std::int64_t height
     return Done{};
 }
 
-void clip_to_gamut(LoadedImage& loaded) {
+void clip_negatives(LoadedImage& loaded, std::string_view cause) {
     std::size_t clipped = 0;
     for (Rgb& pixel : loaded.image.pixels) {
         if (fault_of(pixel) != Fault::negative) continue;
@@ -57,7 +57,7 @@ void clip_to_gamut(LoadedImage& loaded) {
     }
     if (clipped > 0)
         loaded.warnings.push_back(
-            fmt::format("{} pixels lie outside the Rec. 709 gamut; their negative components were set to 0", clipped));
+            fmt::format("the negative components of {} pixels were set to 0: {}", clipped, cause));
 }
 
 Result<LoadedImage> inspected(LoadedImage loaded, std::string_view name, const ReadOptions& options) {

@@ -14,9 +14,9 @@ inline constexpr std::int64_t k_most_side = 65536;
 [[nodiscard]] Status check_size(std::string_view name, std::int64_t width, std::int64_t height,
                                 const ReadOptions& options);
 
-/// Sets negative components to 0 in an image that was converted into Rec. 709, and says so in a warning: they are
-/// colours outside its gamut and not faults of the file.
-void clip_to_gamut(LoadedImage& loaded);
+/// Sets negative components to 0, and says so in a warning that gives `cause`: for those that arise in decoding valid
+/// files, and are not faults of theirs.
+void clip_negatives(LoadedImage& loaded, std::string_view cause);
 
 /// Counts, and replaces where `options.sanitize` says so, components that are no radiance; warns of an odd aspect.
 [[nodiscard]] Result<LoadedImage> inspected(LoadedImage loaded, std::string_view name, const ReadOptions& options);

@@ -99,6 +99,12 @@ std::int64_t lines_per_chunk(Imf::Compression compression) {
     }
 }
 
+/// Whether a compression may turn 0 into a small negative number.
+bool crosses_zero(Imf::Compression compression) {
+    return compression == Imf::B44_COMPRESSION || compression == Imf::B44A_COMPRESSION ||
+           compression == Imf::DWAA_COMPRESSION || compression == Imf::DWAB_COMPRESSION;
+}
+
 /// How many samples OpenEXR buffers at once for a part.
 std::int64_t buffered_samples(const Imf::Header& header) {
     std::int64_t channels = 0;
@@ -208,12 +214,13 @@ Result<LoadedImage> decode(ExrInput& in, std::string_view name, const ReadOption
                        {}};
     if (choice->kind == Choice::Kind::luminance_chroma) {
         read_luminance_chroma(in, loaded.image);
-        clip_to_gamut(loaded);
+        clip_negatives(loaded, "rounding of luminance and chroma");
         return loaded;
     }
     read_planes(file, *choice, loaded.image);
     if (choice->kind == Choice::Kind::luminance)
         for (Rgb& pixel : loaded.image.pixels) pixel = {pixel.r, pixel.r, pixel.r};
+    if (crosses_zero(header.compression())) clip_negatives(loaded, "rounding of its lossy compression");
     return loaded;
 }
 

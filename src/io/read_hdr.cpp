@@ -198,7 +198,7 @@ Result<LoadedImage> read_hdr(std::span<const std::byte> bytes, std::string_view 
     if (header->encoding == HdrHeader::Encoding::xyze) {
         loaded->warnings.push_back(
             fmt::format("XYZE pixels are taken as candela per square metre, and divided by {} lm/W", k_white_efficacy));
-        io::clip_to_gamut(*loaded);
+        io::clip_negatives(*loaded, "they lie outside the gamut of Rec. 709");
     }
     return io::inspected(std::move(*loaded), name, options);
 }

@@ -50,6 +50,7 @@ struct LoadedImage {
                                            const ReadOptions& options = {});
 
 /// OpenEXR: RGB, luminance, or luminance with chroma, of the first part that has them; scan lines or tiles (level 0).
+/// Negative components of a file with lossy compression (B44, DWA) become 0 with a warning: it makes them of zeros.
 /// Decompression uses the threads that the application has given to OpenEXR (Imf::setGlobalThreadCount), 0 at first.
 [[nodiscard]] Result<LoadedImage> read_exr(std::span<const std::byte> bytes, std::string_view name,
                                            const ReadOptions& options = {});

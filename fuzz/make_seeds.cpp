@@ -1,0 +1,68 @@
+// Writes a seed corpus: small valid files of every kind, into FOLDER/hdr and FOLDER/exr.
+#include <cstdio>
+#include <filesystem>
+
+#include "io/write_file.h"
+#include "io_files.h"
+
+namespace {
+
+using namespace lobelia;
+
+bool write(const std::filesystem::path& folder, const std::string& name, const std::string& bytes) {
+    const Status status = write_file_atomically(folder / name, bytes);
+    if (!status) std::fprintf(stderr, "%s\n", status.error().message.c_str());
+    return static_cast<bool>(status);
+}
+
+bool write_hdr_seeds(const std::filesystem::path& folder) {
+    bool done = true;
+    const HdrTexels picture = test_texels(20, 3);
+    using Scheme = HdrSpec::Scheme;
+    for (const Scheme scheme : {Scheme::flat, Scheme::old_rle, Scheme::new_rle})
+        for (const std::string axes : {"-Y +X", "+Y +X", "-Y -X", "+Y -X", "+X -Y", "-X -Y", "+X +Y", "-X +Y"})
+            done &= write(folder, "scheme" + std::to_string(static_cast<int>(scheme)) + axes,
+                          make_hdr(picture, {scheme, axes, "FORMAT=32-bit_rle_rgbe\n"}));
+    const std::string variables =
+        "# comment\nEXPOSURE= 2.5\nCOLORCORR=1 0.5 2\nPRIMARIES=0.64 0.33 0.29 0.6 0.15 0.06 0.3127 0.329\n"
+        "FORMAT=32-bit_rle_xyze\n";
+    done &= write(folder, "xyze", make_hdr(picture, {Scheme::new_rle, "-Y +X", variables}));
+    return done;
+}
+
+bool write_exr_seeds(const std::filesystem::path& folder) {
+    bool done = true;
+    const Image image = test_image(20, 10);
+    for (int compression = 0; compression < Imf::NUM_COMPRESSION_METHODS; ++compression) {
+        for (const Imf::PixelType type : {Imf::HALF, Imf::FLOAT, Imf::UINT}) {
+            for (const ExrSpec::Layout layout : {ExrSpec::Layout::scan_lines, ExrSpec::Layout::tiles}) {
+                const ExrSpec spec{layout, static_cast<Imf::Compression>(compression), type, {"R", "G", "B"}, 0, 0};
+                const std::string name = "compression" + std::to_string(compression) + "-type" + std::to_string(type) +
+                                         "-layout" + std::to_string(static_cast<int>(layout));
+                done &= write(folder, name, make_exr(image, spec));
+            }
+        }
+    }
+    done &= write(folder, "mipmap", make_exr(image, {.layout = ExrSpec::Layout::mipmap}));
+    done &= write(folder, "ripmap", make_exr(image, {.layout = ExrSpec::Layout::ripmap}));
+    done &= write(folder, "luminance", make_exr(image, {.channels = {"Y"}, .left = -3, .top = 5}));
+    done &= write(folder, "layers", make_exr(image, {.channels = {"left.R", "left.G", "left.B"}}));
+    done &= write(folder, "luminance-chroma", make_luminance_chroma_exr(image));
+    done &= write(folder, "multi-part", make_multi_part_exr(image, {{"Z"}, {"R", "G", "B", "A"}}));
+    done &= write(folder, "deep", make_deep_exr());
+    return done;
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+    if (count != 2) {
+        std::fprintf(stderr, "usage: make_seeds FOLDER\n");
+        return 2;
+    }
+    const std::filesystem::path folder = arguments[1];
+    std::filesystem::create_directories(folder / "hdr");
+    std::filesystem::create_directories(folder / "exr");
+    const bool done = write_hdr_seeds(folder / "hdr") && write_exr_seeds(folder / "exr");
+    return done ? 0 : 1;
+}
