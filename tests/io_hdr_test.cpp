@@ -201,5 +201,22 @@ TEST(ReadEnvironment, ContentDecidesTheFormat) {
     EXPECT_TRUE(holds(loaded->image, picture));
 }
 
+#ifdef LOBELIA_SHARED_DIR
+TEST(ReadEnvironment, RealEnvironments) {
+    const std::filesystem::path folder = std::filesystem::path(LOBELIA_SHARED_DIR) / "data";
+    if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no environments at " << folder;
+    std::size_t read = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+        if (entry.path().extension() != ".hdr") continue;
+        const auto loaded = read_environment(entry.path());
+        ASSERT_TRUE(loaded) << message_of(loaded);
+        EXPECT_TRUE(loaded->warnings.empty()) << entry.path();
+        EXPECT_EQ(loaded->image.width, 2 * loaded->image.height);
+        ++read;
+    }
+    EXPECT_GT(read, 0u);
+}
+#endif
+
 }  // namespace
 }  // namespace lobelia

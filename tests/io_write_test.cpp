@@ -1,0 +1,200 @@
+// Files are written whole or not at all, and what the writers store the readers return.
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <cmath>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "io/read_image.h"
+#include "io/write_file.h"
+#include "io/write_image.h"
+#include "io_files.h"
+
+namespace lobelia {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string contents(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// An empty folder of one test.
+class WriteFile : public ::testing::Test {
+  protected:
+    WriteFile()
+        : folder_(fs::path(::testing::TempDir()) / ::testing::UnitTest::GetInstance()->current_test_info()->name()) {
+        fs::remove_all(folder_);
+        fs::create_directories(folder_);
+    }
+    ~WriteFile() override { fs::remove_all(folder_); }
+    [[nodiscard]] std::size_t entries() const {
+        return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
+    }
+
+    fs::path folder_;
+};
+
+/// No file may grow beyond `bytes` while this lives: writing fails then, as on a full disk.
+class FileSizeLimit {
+  public:
+    explicit FileSizeLimit(rlim_t bytes) : old_handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+        ::getrlimit(RLIMIT_FSIZE, &old_limit_);
+        const rlimit limit{bytes, old_limit_.rlim_max};
+        ::setrlimit(RLIMIT_FSIZE, &limit);
+    }
+    ~FileSizeLimit() {
+        ::setrlimit(RLIMIT_FSIZE, &old_limit_);
+        std::signal(SIGXFSZ, old_handler_);
+    }
+    FileSizeLimit(const FileSizeLimit&) = delete;
+    FileSizeLimit& operator=(const FileSizeLimit&) = delete;
+
+  private:
+    rlimit old_limit_{};
+    void (*old_handler_)(int);
+};
+
+TEST_F(WriteFile, RoundTripLeavesNothingElse) {
+    const std::string text("with\0zero", 9);
+    ASSERT_TRUE(write_file_atomically(folder_ / "file", text));
+    EXPECT_EQ(contents(folder_ / "file"), text);
+    ASSERT_TRUE(write_file_atomically(folder_ / "file", std::string_view("shorter")));
+    EXPECT_EQ(contents(folder_ / "file"), "shorter");
+    EXPECT_EQ(entries(), 1u);
+}
+
+TEST_F(WriteFile, PermissionsOfTheOldFileAreKept) {
+    ASSERT_TRUE(write_file_atomically(folder_ / "file", std::string_view("old")));
+    ASSERT_EQ(::chmod((folder_ / "file").c_str(), 0640), 0);
+    ASSERT_TRUE(write_file_atomically(folder_ / "file", std::string_view("new")));
+    struct stat status {};
+    ASSERT_EQ(::stat((folder_ / "file").c_str(), &status), 0);
+    EXPECT_EQ(status.st_mode & 0777, 0640u);
+}
+
+TEST_F(WriteFile, FullDiskKeepsTheOldFile) {
+    ASSERT_TRUE(write_file_atomically(folder_ / "file", std::string_view("old")));
+    const Status status = [&] {
+        const FileSizeLimit limit(1000);
+        return write_file_atomically(folder_ / "file", std::string(5000, 'x'));
+    }();
+    ASSERT_FALSE(status);
+    EXPECT_NE(status.error().message.find("file: cannot be written"), std::string::npos) << status.error().message;
+    EXPECT_EQ(contents(folder_ / "file"), "old");
+    EXPECT_EQ(entries(), 1u);
+}
+
+TEST_F(WriteFile, FullDeviceIsAnError) {
+    if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full on this system";
+    const Status status = write_file_atomically("/dev/full", std::string_view("text"));
+    ASSERT_FALSE(status);
+    EXPECT_NE(status.error().message.find("No space left"), std::string::npos) << status.error().message;
+    EXPECT_TRUE(fs::is_character_file("/dev/full"));
+}
+
+TEST_F(WriteFile, PlacesThatCannotBeWritten) {
+    ASSERT_TRUE(write_file_atomically(folder_ / "file", std::string_view("old")));
+    const auto message = [](const fs::path& path) {
+        const Status status = write_file_atomically(path, std::string_view("text"));
+        return status ? std::string() : status.error().message;
+    };
+    EXPECT_NE(message(folder_).find("Is a directory"), std::string::npos);
+    EXPECT_NE(message(folder_ / "missing" / "file").find("No such file"), std::string::npos);
+    EXPECT_NE(message(folder_ / "file" / "file").find("Not a directory"), std::string::npos);
+    EXPECT_NE(message("").find("missing"), std::string::npos);
+    EXPECT_EQ(entries(), 1u);
+}
+
+TEST_F(WriteFile, UnwritableFolderIsAnError) {
+    if (::geteuid() == 0) GTEST_SKIP() << "root may write anywhere";
+    fs::permissions(folder_, fs::perms::owner_read | fs::perms::owner_exec);
+    const Status status = write_file_atomically(folder_ / "file", std::string_view("text"));
+    fs::permissions(folder_, fs::perms::owner_all);
+    ASSERT_FALSE(status);
+    EXPECT_NE(status.error().message.find("Permission denied"), std::string::npos) << status.error().message;
+}
+
+TEST_F(WriteFile, LinksAreFollowed) {
+    fs::create_directory(folder_ / "inner");
+    fs::create_symlink("inner/file", folder_ / "link");
+    ASSERT_TRUE(write_file_atomically(folder_ / "link", std::string_view("text")));
+    EXPECT_TRUE(fs::is_symlink(folder_ / "link"));
+    EXPECT_EQ(contents(folder_ / "inner" / "file"), "text");
+    fs::create_symlink("circle", folder_ / "circle");
+    EXPECT_FALSE(write_file_atomically(folder_ / "circle", std::string_view("text")));
+}
+
+TEST(WriteExr, HalfRoundsAndSaturates) {
+    Image image(2, 1);
+    image.pixels = {{0.1f, 1e6f, 65504}, {1, 2, 3}};
+    const auto bytes = encode_exr(image, {.precision = ExrOptions::Precision::half});
+    ASSERT_TRUE(bytes);
+    const auto loaded = read_exr(std::as_bytes(std::span(*bytes)), "half.exr");
+    ASSERT_TRUE(loaded);
+    EXPECT_NEAR(loaded->image.pixels[0].r, 0.1, 0.1 / 2048);
+    EXPECT_EQ(loaded->image.pixels[0].g, 65504);
+    EXPECT_EQ(loaded->image.pixels[0].b, 65504);
+    EXPECT_EQ(loaded->image.pixels[1], image.pixels[1]);
+}
+
+TEST(WriteExr, NamedChannelsWithStrides) {
+    // Two interleaved pairs; the reader falls back to the layer that is whole.
+    const std::vector<float> floats{1, 10, 2, 20};
+    const std::span<const float> all(floats);
+    const std::vector<ExrChannel> channels{
+        {"sh.R", all, 2}, {"sh.G", all.subspan(1), 2}, {"sh.B", all.first(2), 1}, {"other", all.last(2), 1}};
+    const auto bytes = encode_exr(2, 1, channels);
+    ASSERT_TRUE(bytes) << bytes.error().message;
+    const auto loaded = read_exr(std::as_bytes(std::span(*bytes)), "channels.exr");
+    ASSERT_TRUE(loaded) << loaded.error().message;
+    EXPECT_EQ(loaded->image.pixels, (std::vector<Rgb>{{1, 10, 1}, {2, 20, 10}}));
+}
+
+TEST(WriteExr, WhatCannotBeStoredIsRefused) {
+    const std::vector<float> floats(8);
+    using Channels = std::vector<ExrChannel>;
+    EXPECT_FALSE(encode_exr(2, 2, Channels{}));
+    EXPECT_FALSE(encode_exr(0, 2, Channels{{"A", floats, 1}}));
+    EXPECT_FALSE(encode_exr(2, 2, Channels{{"", floats, 1}}));
+    EXPECT_FALSE(encode_exr(2, 2, Channels{{"A", floats, 1}, {"A", floats, 1}}));
+    EXPECT_FALSE(encode_exr(4, 2, Channels{{"A", floats, 2}}));
+    EXPECT_FALSE(encode_exr(Image()));
+}
+
+TEST(WritePng, RoundTripWithinHalfALevel) {
+    Image image(16, 8);
+    for (std::size_t i = 0; i < image.pixels.size(); ++i)
+        image.pixels[i] = {static_cast<float>(i) / 127, 0.5f, static_cast<float>(i) / 20 - 1};
+    const auto png = encode_png(to_srgb(image, 2));
+    ASSERT_TRUE(png);
+    const auto loaded = read_ldr(std::as_bytes(std::span(*png)), "picture.png", {.ldr = true});
+    ASSERT_TRUE(loaded) << loaded.error().message;
+    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+        // The sRGB curve is steepest near white: a level is 1 / 255 * 2.4 / 1.055 there.
+        const auto expected = [](float c) { return std::clamp(2 * c, 0.0f, 1.0f); };
+        EXPECT_NEAR(loaded->image.pixels[i].r, expected(image.pixels[i].r), 0.5 / 255 * 2.28);
+        EXPECT_NEAR(loaded->image.pixels[i].b, expected(image.pixels[i].b), 0.5 / 255 * 2.28);
+    }
+}
+
+TEST(ReadLdr, PicturesNeedTheOption) {
+    const auto png = encode_png(to_srgb(test_image(16, 8), 0.02f));
+    ASSERT_TRUE(png);
+    const auto bytes = std::as_bytes(std::span(*png));
+    const auto loaded = read_environment(bytes, "picture.png");
+    ASSERT_FALSE(loaded);
+    EXPECT_NE(loaded.error().message.find("--ldr"), std::string::npos);
+    for (std::size_t length = 0; length + 12 < bytes.size(); ++length)  // the last 12 bytes hold no pixels
+        EXPECT_FALSE(read_environment(bytes.first(length), "picture.png", {.ldr = true})) << length;
+}
+
+}  // namespace
+}  // namespace lobelia
