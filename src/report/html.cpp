@@ -13,8 +13,9 @@ std::string_view page_file(std::string_view name);  // generated, src/report/pag
 
 namespace {
 
-constexpr std::array k_scripts = {"chart.js",  "data.js",    "colour.js", "draw.js",  "pictures.js",
-                                  "detail.js", "methods.js", "plots.js",  "report.js"};
+/// In this order: each uses what those before it define.
+constexpr std::array k_scripts = {"chart.js",  "elements.js", "data.js",   "colour.js", "draw.js",  "pictures.js",
+                                  "detail.js", "methods.js",  "charts.js", "plots.js",  "report.js"};
 
 /// The two base64 characters of every 12 bits.
 constexpr auto k_base64_pairs = [] {

@@ -3,8 +3,11 @@
 
 /// How all pictures are shown. `exposure` is in EV above the automatic one, `turn` in degrees.
 const view = {
-    exposure: 0, tone: "clamp", mark_negative: true, turn: 0,
-    error_scale: { radiance: 1, irradiance: 1 },  // the error at the end of the colour scale
+    exposure: 0,
+    tone: "clamp",
+    mark_negative: true,
+    turn: 0,
+    error_scale: { radiance: 1, irradiance: 1 }, // the error at the end of the colour scale
 };
 
 const luminance = ([r, g, b]) => 0.2126 * r + 0.7152 * g + 0.0722 * b;
@@ -21,7 +24,7 @@ const gain = () => automatic_gain * 2 ** view.exposure;
 const tone_curves = {
     clamp: (x) => Math.min(x, 1),
     reinhard: (x) => x / (1 + x),
-    filmic: (x) => Math.min((x * (2.51 * x + 0.03)) / (x * (2.43 * x + 0.59) + 0.14), 1),  // Narkowicz 2015, fits ACES
+    filmic: (x) => Math.min((x * (2.51 * x + 0.03)) / (x * (2.43 * x + 0.59) + 0.14), 1), // Narkowicz 2015, fits ACES
 };
 
 /// sRGB codes of 2^16 linear steps: rounding to a step moves a result by less than 1/19 of a code, where the curve is
@@ -49,13 +52,23 @@ function write_colour(r, g, b, scale, curve, out, at) {
 }
 
 /// Inferno at nine equal steps: perceptually uniform, dark where there is no error.
-const k_inferno = [[0, 0, 4], [31, 12, 72], [85, 15, 109], [136, 34, 106], [186, 54, 85], [227, 89, 51], [249, 140, 10],
-                   [249, 201, 50], [252, 255, 164]];
+const k_inferno = [
+    [0, 0, 4],
+    [31, 12, 72],
+    [85, 15, 109],
+    [136, 34, 106],
+    [186, 54, 85],
+    [227, 89, 51],
+    [249, 140, 10],
+    [249, 201, 50],
+    [252, 255, 164],
+];
 
 /// Its 256 colours, packed r, g, b.
 const error_colours = Uint8ClampedArray.from({ length: 256 * 3 }, (_, i) => {
     const position = (Math.trunc(i / 3) / 255) * (k_inferno.length - 1);
-    const below = Math.min(Math.floor(position), k_inferno.length - 2), t = position - below;
+    const below = Math.min(Math.floor(position), k_inferno.length - 2),
+        t = position - below;
     return Math.round(k_inferno[below][i % 3] * (1 - t) + k_inferno[below + 1][i % 3] * t);
 });
 
@@ -68,7 +81,10 @@ const k_error_scales = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1];
 
 /// The least scale that leaves room above what is typical: twice the median of the methods' mean errors.
 function automatic_error_scale(shown, quantity) {
-    const errors = shown.map((method) => method[quantities[quantity].smape]).filter(Number.isFinite).sort((a, b) => a - b);
+    const errors = shown
+        .map((method) => method[quantities[quantity].smape])
+        .filter(Number.isFinite)
+        .sort((a, b) => a - b);
     const typical = errors.length ? errors[Math.trunc(errors.length / 2)] : 1;
     return k_error_scales.find((scale) => scale >= 2 * typical) ?? 1;
 }

@@ -5,48 +5,69 @@ const report = JSON.parse(document.getElementById("report-data").textContent);
 const stored_pictures = JSON.parse(document.getElementById("picture-data").textContent);
 const methods = report.methods ?? [];
 const method_by_name = new Map(methods.map((method) => [method.name, method]));
-const domains = [...new Set(methods.map((method) => method.domain))].sort().reverse();  // the sphere first
+const domains = [...new Set(methods.map((method) => method.domain))].sort().reverse(); // the sphere first
 
 /// What pictures show, and which of a method's figures judge it.
 const quantities = {
     radiance: { title: "Radiance", stored: "radiance", rms: "radiance_rms", smape: "radiance_smape" },
     irradiance: {
-        title: "Irradiance / π", stored: "irradiance_over_pi", rms: "irradiance_over_pi_rms", smape: "irradiance_smape",
+        title: "Irradiance / π",
+        stored: "irradiance_over_pi",
+        rms: "irradiance_over_pi_rms",
+        smape: "irradiance_smape",
     },
 };
 
 // ---- Methods
 
-/// A basis's name without its numbers: what differs only in size is one family.
-const family_of = (method) => method.basis.replace(/\d+/g, "").replace(/^-|-$/g, "") || method.basis;
+/// Bases whose names differ in numbers only, in size that is, are one family; a family of one has its basis's name.
+const family_of = (() => {
+    const bases_of_stem = new Map(),
+        stem = (basis) => basis.replace(/\d+/g, "");
+    for (const { basis } of methods)
+        bases_of_stem.set(stem(basis), (bases_of_stem.get(stem(basis)) ?? new Set()).add(basis));
+    return ({ basis }) => (bases_of_stem.get(stem(basis)).size > 1 && stem(basis) ? stem(basis) : basis);
+})();
 
 /// A figure for ordering: what is missing or not a number comes last.
 const figure_or_last = (method, key) => (Number.isFinite(method[key]) ? method[key] : Infinity);
 
-/// The methods that the picture table shows at first: all where they are few; else, of each domain, the one of lowest
-/// irradiance error in each family, the best families only, from few floats to many.
+/// The methods that the picture table shows at first: all where they are few; else some of each domain.
 function representative_methods() {
     const few = 12;
     if (methods.length <= few) return [...methods];
-    const most_per_domain = domains.length > 1 ? 4 : 6;
+    return domains.flatMap((domain) =>
+        representatives_of(
+            methods.filter((method) => method.domain === domain),
+            domains.length > 1 ? 4 : 6,
+        ),
+    );
+}
+
+/// For each family its smallest method whose irradiance error is within a tenth of the family's lowest; then, as long
+/// as there is room, the best of each further basis, small ones first. In order of size.
+function representatives_of(candidates, most) {
     const error = (method) => figure_or_last(method, quantities.irradiance.rms);
-    return domains.flatMap((domain) => {
-        const best = new Map();
-        for (const method of methods) {
-            if (method.domain !== domain) continue;
-            const known = best.get(family_of(method));
-            if (!known || error(method) < error(known)) best.set(family_of(method), method);
-        }
-        const chosen = [...best.values()].sort((a, b) => error(a) - error(b)).slice(0, most_per_domain);
-        return chosen.sort((a, b) => a.floats - b.floats);
-    });
+    const by_error = [...candidates].sort((a, b) => error(a) - error(b));
+    const by_size = [...by_error].sort((a, b) => a.floats - b.floats); // stable: the best of a size comes first
+    const chosen = [];
+    for (const family of new Set(by_error.map(family_of))) {
+        const lowest = error(by_error.find((method) => family_of(method) === family));
+        chosen.push(
+            by_size.find((method) => family_of(method) === family && error(method) <= 1.1 * lowest) ?? by_size[0],
+        );
+    }
+    for (const method of by_size) if (!chosen.some(({ basis }) => basis === method.basis)) chosen.push(method);
+    return chosen.slice(0, most).sort((a, b) => a.floats - b.floats);
 }
 
 // ---- Pictures: { width, height, channels, data }, row by row; null where the report has none
 
 /// The float of each of the 65536 halves.
 const float_from_half = Float32Array.from({ length: 65536 }, (_, bits) => {
-    const sign = bits & 0x8000 ? -1 : 1, exponent = (bits >> 10) & 31, mantissa = bits & 1023;
+    const sign = bits & 0x8000 ? -1 : 1,
+        exponent = (bits >> 10) & 31,
+        mantissa = bits & 1023;
     if (exponent === 31) return mantissa ? NaN : sign * Infinity;
     return sign * (exponent ? (1024 + mantissa) * 2 ** (exponent - 25) : mantissa * 2 ** -24);
 });
@@ -77,20 +98,24 @@ function method_picture(method, quantity) {
     return made_once(`${quantity} ${key}`, () => decode(stored_pictures[quantities[quantity].stored][key]));
 }
 
-/// `picture` at another size: each texel is the mean of those whose centres it holds, or the nearest where it holds none.
+/// `picture` at another size: each texel is the mean of those whose centres it holds, or else the nearest.
 function resized(picture, width, height) {
     if (picture.width === width && picture.height === height) return picture;
     const { channels, data } = picture;
     const range = (i, to, from) => {
-        const begin = Math.ceil((i * from) / to - 0.5), end = Math.ceil(((i + 1) * from) / to - 0.5);
-        return end > begin ? [begin, end] : [Math.floor(((i + 0.5) * from) / to), Math.floor(((i + 0.5) * from) / to) + 1];
+        const begin = Math.ceil((i * from) / to - 0.5),
+            end = Math.ceil(((i + 1) * from) / to - 0.5);
+        return end > begin
+            ? [begin, end]
+            : [Math.floor(((i + 0.5) * from) / to), Math.floor(((i + 0.5) * from) / to) + 1];
     };
     const out = new Float32Array(width * height * channels);
     for (let y = 0; y < height; ++y) {
         const [top, bottom] = range(y, height, picture.height);
         for (let x = 0; x < width; ++x) {
             const [left, right] = range(x, width, picture.width);
-            const share = 1 / ((bottom - top) * (right - left)), at = (y * width + x) * channels;
+            const share = 1 / ((bottom - top) * (right - left));
+            const at = (y * width + x) * channels;
             for (let row = top; row < bottom; ++row)
                 for (let i = (row * picture.width + left) * channels; i < (row * picture.width + right) * channels; ++i)
                     out[at + (i % channels)] += data[i] * share;
@@ -111,7 +136,8 @@ function smape_picture(a, b) {
 
 function error_picture(method, quantity) {
     return made_once(`error ${quantity} ${method.name}`, () => {
-        const picture = method_picture(method, quantity), reference = reference_picture(method.domain, quantity);
+        const picture = method_picture(method, quantity);
+        const reference = reference_picture(method.domain, quantity);
         if (!picture || !reference) return null;
         return smape_picture(picture, resized(reference, picture.width, picture.height));
     });
@@ -119,7 +145,8 @@ function error_picture(method, quantity) {
 
 /// The direction of the position (u, v), and back; the footer has the mapping in words.
 function direction_of(u, v) {
-    const theta = Math.PI * (2 * u - 1), phi = Math.PI * v;
+    const theta = Math.PI * (2 * u - 1);
+    const phi = Math.PI * v;
     return [Math.sin(phi) * Math.sin(theta), Math.cos(phi), -Math.sin(phi) * Math.cos(theta)];
 }
 function position_of([x, y, z]) {

@@ -5,24 +5,33 @@ const detail = { method: null, opener: null };
 
 const detail_rows = [
     { title: "Radiance", quantity: "radiance", form: "lat-long" },
-    { title: "Irradiance / π", quantity: "irradiance", form: "lat-long", mark: (method) => method?.irradiance_worst?.direction },
+    {
+        title: "Irradiance / π",
+        quantity: "irradiance",
+        form: "lat-long",
+        mark: (method) => method?.irradiance_worst?.direction,
+    },
     { title: "Lit sphere", quantity: "irradiance", form: "sphere" },
 ];
 
 function open_detail(method) {
-    const panel = document.getElementById("detail"), focused_inside = panel.contains(document.activeElement);
+    const panel = by_id("detail");
+    const focused_inside = panel.contains(document.activeElement);
     if (panel.hidden) detail.opener = document.activeElement;
     detail.method = method;
     forget_canvases(panel);
-    panel.replaceChildren(detail_heading(method), element("div", { class: "detail-body" }, detail_pictures(method), detail_figures(method), detail_coefficients(method)));
+    panel.replaceChildren(
+        detail_heading(method),
+        element("div.detail-body", detail_pictures(method), detail_figures(method), detail_coefficients(method)),
+    );
     panel.hidden = false;
     document.body.classList.add("with-detail");
-    if (focused_inside || !detail.opener?.closest("table")) document.getElementById("detail-title").focus({ preventScroll: true });
+    if (focused_inside || !detail.opener?.closest("table")) by_id("detail-title").focus({ preventScroll: true });
     document.dispatchEvent(new CustomEvent("detail-changed"));
 }
 
 function close_detail() {
-    const panel = document.getElementById("detail");
+    const panel = by_id("detail");
     if (panel.hidden) return;
     forget_canvases(panel);
     panel.hidden = true;
@@ -34,63 +43,116 @@ function close_detail() {
 }
 
 function detail_heading(method) {
-    const pin = element("button", { type: "button", "aria-pressed": String(is_pinned(method)), onclick: () => {
-        toggle_pin(method);
-        pin.setAttribute("aria-pressed", String(is_pinned(method)));
-    } }, "Pin to the pictures");
-    return element("div", { class: "detail-head" },
-        element("h2", { id: "detail-title", tabindex: -1 }, element("strong", {}, method.basis), ` / ${method.encoder} / ${method.evaluator}`), pin,
-        element("button", { type: "button", class: "quiet close", "aria-label": "Close the details", title: "Close (Esc)", onclick: close_detail }, "×"));
+    const pin = button(
+        "",
+        {
+            "aria-pressed": String(is_pinned(method)),
+            onclick: () => {
+                toggle_pin(method);
+                pin.setAttribute("aria-pressed", String(is_pinned(method)));
+            },
+        },
+        "Pin to the pictures",
+    );
+    return element(
+        "div.detail-head",
+        element(
+            "h2",
+            { id: "detail-title", tabindex: -1 },
+            element("strong", method.basis),
+            ` / ${method.encoder} / ${method.evaluator}`,
+        ),
+        pin,
+        button("quiet.close", { "aria-label": "Close the details", title: "Close (Esc)", onclick: close_detail }, "×"),
+    );
 }
 
 function detail_pictures(method) {
-    const head = ["", "Reference", method.name, "Error (sMAPE)"].map((text) => element("div", { class: "detail-column" }, text));
+    const head = ["", "Reference", method.name, "Error (sMAPE)"].map((text) => element("div.detail-column", text));
     const rows = detail_rows.flatMap((kind) => [
-        element("div", { class: "detail-kind" }, kind.title),
+        element("div.detail-kind", kind.title),
         frame_of({ ...kind, mark: null }, method.domain, null),
         frame_of({ ...kind, mark: null }, method.domain, method),
-        element("div", { class: "with-scale" }, frame_of({ ...kind, title: `${kind.title} error`, form: `${kind.form}-error` }, method.domain, method), small_scale(kind)),
+        element(
+            "div.with-scale",
+            frame_of({ ...kind, title: `${kind.title} error`, form: `${kind.form}-error` }, method.domain, method),
+            small_scale(kind),
+        ),
     ]);
-    return element("div", { class: "detail-pictures" }, ...head, ...rows);
+    return element("div.detail-pictures", ...head, ...rows);
 }
 
 function small_scale({ quantity, form }) {
     if (form === "sphere") return null;
-    const bar = element("span", { class: "bar", style: `background: ${error_gradient()}` });
-    return element("div", { class: "small-scale number" }, "0", bar, String(view.error_scale[quantity]));
+    const bar = element("span.bar", { style: `background: ${error_gradient()}` });
+    return element("div.small-scale.number", "0", bar, String(view.error_scale[quantity]));
 }
 
 function detail_figures(method) {
     const head = ["", "Radiance L", "Irradiance E/π"].map((text) => element("th", { scope: "col" }, text));
-    const row = (name, radiance, irradiance) => element("tr", {}, element("th", { scope: "row" }, name), element("td", {}, figure_text(method[radiance])), element("td", {}, figure_text(method[irradiance])));
-    const errors = element("table", { class: "figures-table" }, element("thead", {}, element("tr", {}, ...head)), element("tbody", {},
-        row("RMS error", "radiance_rms", "irradiance_over_pi_rms"),
-        row("RMS error, unweighted", "radiance_rms_unweighted", "irradiance_over_pi_rms_unweighted"),
-        row("sMAPE", "radiance_smape", "irradiance_smape"),
-        row("relMSE", "radiance_relmse", "irradiance_relmse")));
+    const row = (name, radiance, irradiance) =>
+        element(
+            "tr",
+            element("th", { scope: "row" }, name),
+            element("td", figure_text(method[radiance])),
+            element("td", figure_text(method[irradiance])),
+        );
+    const errors = element(
+        "table.figures-table",
+        element("thead", element("tr", ...head)),
+        element(
+            "tbody",
+            {},
+            row("RMS error", "radiance_rms", "irradiance_over_pi_rms"),
+            row("RMS error, unweighted", "radiance_rms_unweighted", "irradiance_over_pi_rms_unweighted"),
+            row("sMAPE", "radiance_smape", "irradiance_smape"),
+            row("relMSE", "radiance_relmse", "irradiance_relmse"),
+        ),
+    );
     const worst = method.irradiance_worst;
-    const fact = (name, value) => [element("dt", {}, name), element("dd", { class: "number" }, value)];
-    const facts = element("dl", { class: "facts" },
-        ...fact("Domain", method.domain), ...fact("Size", `${figure_text_whole(method.floats)} floats, ${figure_text_whole(method.bytes)} bytes`),
-        ...fact("Largest error of E/π", figure_text(worst?.error)), ...fact("… towards", worst?.direction ? vector_text(worst.direction) : "–"),
+    const fact = (name, value) => [element("dt", name), element("dd.number", value)];
+    const facts = element(
+        "dl.facts",
+        ...fact("Domain", method.domain),
+        ...fact("Size", `${count_text(method.floats)} floats, ${count_text(method.bytes)} bytes`),
+        ...fact("Largest error of E/π", figure_text(worst?.error)),
+        ...fact("… towards", worst?.direction ? vector_text(worst.direction) : "–"),
         ...fact("Negative radiance", `${share_text(method.negative_share)} % of directions`),
-        ...fact("Encoding", `${figure_text(method.encode_ms)} ms`), ...fact("Evaluation", `${figure_text(method.evaluate_ns_per_normal)} ns for a normal`));
-    return element("div", { class: "detail-figures" }, errors, facts);
+        ...fact("Encoding", `${figure_text(method.encode_ms)} ms`),
+        ...fact("Evaluation", `${figure_text(method.evaluate_ns_per_normal)} ns for a normal`),
+    );
+    return element("div.detail-figures", errors, facts);
 }
 
 function detail_coefficients(method) {
     const coefficients = method.coefficients ?? [];
-    const status = element("span", { class: "muted", role: "status" });
-    const copy = element("button", { type: "button", onclick: async () => {
-        status.textContent = (await copy_text(JSON.stringify(coefficients))) ? "Copied as JSON" : "The browser refused";
-    } }, "Copy");
-    const number = (value) => element("td", {}, Number.isFinite(value) ? value.toPrecision(6).replace("-", "−") : "–");
-    const rows = coefficients.map((c, i) => element("tr", {}, element("th", { scope: "row" }, String(i)), ...[].concat(c).map(number)));
-    const head = element("tr", {}, ...["i", "r", "g", "b"].map((text) => element("th", { scope: "col" }, text)));
-    return element("section", { class: "detail-coefficients", "aria-label": "Coefficients" },
-        element("div", { class: "section-head" }, element("h3", {}, `${coefficients.length} coefficients`), copy, status),
-        element("div", { class: "coefficients-scroll", tabindex: 0, role: "region", "aria-label": "Table of coefficients" },
-                element("table", { class: "figures-table" }, element("thead", {}, head), element("tbody", {}, ...rows))));
+    const status = element("span.muted", { role: "status" });
+    const copy = button(
+        "",
+        {
+            onclick: async () => {
+                status.textContent = (await copy_text(JSON.stringify(coefficients)))
+                    ? "Copied as JSON"
+                    : "The browser refused";
+            },
+        },
+        "Copy",
+    );
+    const number = (value) => element("td", Number.isFinite(value) ? value.toPrecision(6).replace("-", "−") : "–");
+    const rows = coefficients.map((c, i) =>
+        element("tr", element("th", { scope: "row" }, String(i)), ...[].concat(c).map(number)),
+    );
+    const head = element("tr", ...["i", "r", "g", "b"].map((text) => element("th", { scope: "col" }, text)));
+    return element(
+        "section.detail-coefficients",
+        { "aria-label": "Coefficients" },
+        element("div.section-head", element("h3", `${coefficients.length} coefficients`), copy, status),
+        element(
+            "div.coefficients-scroll",
+            { tabindex: 0, role: "region", "aria-label": "Table of coefficients" },
+            element("table.figures-table", element("thead", head), element("tbody", ...rows)),
+        ),
+    );
 }
 
 /// Copies, also where the browser keeps its clipboard interface from local files.
@@ -99,7 +161,7 @@ async function copy_text(text) {
         await navigator.clipboard.writeText(text);
         return true;
     } catch {
-        const area = element("textarea", { class: "off-screen" }, text);
+        const area = element("textarea.off-screen", text);
         document.body.append(area);
         area.select();
         const copied = document.execCommand("copy");

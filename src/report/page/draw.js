@@ -1,21 +1,9 @@
 // Draws pictures on canvases: only those on the screen, and once per frame at most.
 "use strict";
 
-/// Makes an element: attributes by name, `on...` listeners as functions, children as nodes or text.
-function element(tag, attributes = {}, ...children) {
-    const made = document.createElement(tag);
-    for (const [name, value] of Object.entries(attributes)) {
-        if (name.startsWith("on")) made.addEventListener(name.slice(2), value);
-        else if (value === true) made.setAttribute(name, "");
-        else if (value !== false && value != null) made.setAttribute(name, value);
-    }
-    made.append(...children.filter((child) => child != null));
-    return made;
-}
-
 // ---- Which canvases to paint, and when
 
-const painters = new Map();  // canvas -> function that paints it
+const painters = new Map(); // canvas -> function that paints it
 const on_screen = new Set();
 const to_paint = new Set();
 let frame_asked = false;
@@ -33,13 +21,16 @@ function ask_for_frame() {
     });
 }
 
-const screen_observer = new IntersectionObserver((entries) => {
-    for (const { target, isIntersecting } of entries) {
-        if (isIntersecting) on_screen.add(target);
-        else on_screen.delete(target);
-    }
-    ask_for_frame();
-}, { rootMargin: "200px" });
+const screen_observer = new IntersectionObserver(
+    (entries) => {
+        for (const { target, isIntersecting } of entries) {
+            if (isIntersecting) on_screen.add(target);
+            else on_screen.delete(target);
+        }
+        ask_for_frame();
+    },
+    { rootMargin: "200px" },
+);
 
 function painted(canvas, paint) {
     painters.set(canvas, paint);
@@ -70,7 +61,8 @@ function texel_writer(picture, quantity) {
         const scale = view.error_scale[quantity];
         return (data, i, out, at) => write_error(data[i], scale, out, at);
     }
-    const scale = gain(), curve = tone_curves[view.tone];
+    const scale = gain();
+    const curve = tone_curves[view.tone];
     return (data, i, out, at) => write_colour(data[i], data[i + 1], data[i + 2], scale, curve, out, at);
 }
 
@@ -78,7 +70,8 @@ function texel_writer(picture, quantity) {
 function paint_lat_long(canvas, picture, quantity, judged) {
     canvas.width = picture.width;
     canvas.height = picture.height;
-    const context = canvas.getContext("2d"), image = context.createImageData(picture.width, picture.height);
+    const context = canvas.getContext("2d");
+    const image = context.createImageData(picture.width, picture.height);
     const write = texel_writer(picture, quantity);
     for (let i = 0; i < picture.width * picture.height; ++i) {
         write(picture.data, i * picture.channels, image.data, i * 4);
@@ -99,13 +92,17 @@ const sphere_points = (() => {
 
 function make_sphere_points(size) {
     const radius = size / 2 - 1;
-    const u = new Float32Array(size * size), v = new Float32Array(size * size), cover = new Float32Array(size * size);
+    const u = new Float32Array(size * size);
+    const v = new Float32Array(size * size);
+    const cover = new Float32Array(size * size);
     for (let i = 0; i < size * size; ++i) {
-        const x = ((i % size) + 0.5 - size / 2) / radius, y = (size / 2 - Math.trunc(i / size) - 0.5) / radius;
+        const x = ((i % size) + 0.5 - size / 2) / radius;
+        const y = (size / 2 - Math.trunc(i / size) - 0.5) / radius;
         const distance = Math.hypot(x, y);
         cover[i] = Math.max(0, Math.min(1, (1 - distance) * radius + 0.5));
         // Pixels whose centre is just outside belong to the rim.
-        const inside = Math.max(1, distance * 1.00001), z = Math.sqrt(Math.max(0, 1 - (distance / inside) ** 2));
+        const inside = Math.max(1, distance * 1.00001);
+        const z = Math.sqrt(Math.max(0, 1 - (distance / inside) ** 2));
         [u[i], v[i]] = position_of([x / inside, y / inside, z]);
     }
     return { u, v, cover };
@@ -113,12 +110,20 @@ function make_sphere_points(size) {
 
 /// Bilinear texel values at (u, v), around the seam and held at the poles, into `out`.
 function sample_picture({ width, height, channels, data }, u, v, out) {
-    const x = u * width - 0.5, y = Math.max(0, Math.min(height - 1, v * height - 0.5));
-    const left = Math.floor(x), top = Math.min(Math.floor(y), Math.max(height - 2, 0)), fx = x - left, fy = y - top;
-    const x0 = ((left % width) + width) % width, x1 = (x0 + 1) % width, below = Math.min(top + 1, height - 1);
+    const x = u * width - 0.5;
+    const y = Math.max(0, Math.min(height - 1, v * height - 0.5));
+    const left = Math.floor(x);
+    const top = Math.min(Math.floor(y), Math.max(height - 2, 0));
+    const fx = x - left;
+    const fy = y - top;
+    const x0 = ((left % width) + width) % width;
+    const x1 = (x0 + 1) % width;
+    const below = Math.min(top + 1, height - 1);
     for (let k = 0; k < channels; ++k) {
-        const a = data[(top * width + x0) * channels + k], b = data[(top * width + x1) * channels + k];
-        const c = data[(below * width + x0) * channels + k], d = data[(below * width + x1) * channels + k];
+        const a = data[(top * width + x0) * channels + k];
+        const b = data[(top * width + x1) * channels + k];
+        const c = data[(below * width + x0) * channels + k];
+        const d = data[(below * width + x1) * channels + k];
         out[k] = (a * (1 - fx) + b * fx) * (1 - fy) + (c * (1 - fx) + d * fx) * fy;
     }
 }
@@ -127,9 +132,13 @@ function sample_picture({ width, height, channels, data }, u, v, out) {
 function paint_sphere(canvas, picture, quantity, judged) {
     const size = Math.max(16, Math.min(400, Math.round(canvas.clientWidth * devicePixelRatio)));
     canvas.width = canvas.height = size;
-    const context = canvas.getContext("2d"), image = context.createImageData(size, size);
-    const { u, v, cover } = sphere_points(size), out = image.data;
-    const write = texel_writer(picture, quantity), value = [0, 0, 0], turn = view.turn / 360;
+    const context = canvas.getContext("2d");
+    const image = context.createImageData(size, size);
+    const { u, v, cover } = sphere_points(size);
+    const out = image.data;
+    const write = texel_writer(picture, quantity);
+    const value = [0, 0, 0];
+    const turn = view.turn / 360;
     for (let i = 0; i < size * size; ++i) {
         if (cover[i] === 0) continue;
         const turned = u[i] + turn - Math.floor(u[i] + turn);
@@ -138,7 +147,8 @@ function paint_sphere(canvas, picture, quantity, judged) {
             write(value, 0, out, i * 4);
             out[i * 4 + 3] = cover[i] * 255;
         } else {
-            const stripe = ((i % size) + Math.trunc(i / size)) % Math.round(7 * devicePixelRatio) < 1.5 * devicePixelRatio;
+            const stripe =
+                ((i % size) + Math.trunc(i / size)) % Math.round(7 * devicePixelRatio) < 1.5 * devicePixelRatio;
             out.fill(128, i * 4, i * 4 + 3);
             out[i * 4 + 3] = cover[i] * (stripe ? 120 : 50);
         }

@@ -1,34 +1,48 @@
 // The table of all methods: sorted, filtered, moved through by keys.
 "use strict";
 
-/// `best`: the least value is worth a mark. `extra`: hidden until asked for.
+/// Columns under a common heading. `best`: the least value is worth a mark. `extra`: hidden until asked for.
+function column_group(group, common, columns) {
+    return columns.map((column) => ({ group, ...common, ...column }));
+}
+
 const method_columns = [
-    { key: "basis", title: "Basis", group: "Method", text: true },
-    { key: "encoder", title: "Encoder", group: "Method", text: true },
-    { key: "evaluator", title: "Evaluator", group: "Method", text: true },
-    { key: "domain", title: "Domain", group: "Method", text: true, absent: domains.length < 2 },
-    { key: "floats", title: "Floats", group: "Size", show: figure_text_whole },
-    { key: "bytes", title: "Bytes", group: "Size", show: figure_text_whole },
-    { key: "radiance_rms", title: "RMS", group: "Radiance L, error", best: true },
-    { key: "radiance_rms_unweighted", title: "RMS unw.", group: "Radiance L, error", best: true, extra: true, hint: "Every texel counts alike" },
-    { key: "radiance_smape", title: "sMAPE", group: "Radiance L, error", best: true },
-    { key: "radiance_relmse", title: "relMSE", group: "Radiance L, error", best: true },
-    { key: "negative_share", title: "Negative %", group: "Radiance L, error", best: true, show: share_text, hint: "Share of directions with negative radiance" },
-    { key: "irradiance_over_pi_rms", title: "RMS", group: "Irradiance E/π, error", best: true },
-    { key: "irradiance_over_pi_rms_unweighted", title: "RMS unw.", group: "Irradiance E/π, error", best: true, extra: true, hint: "Every texel counts alike" },
-    { key: "irradiance_smape", title: "sMAPE", group: "Irradiance E/π, error", best: true },
-    { key: "irradiance_relmse", title: "relMSE", group: "Irradiance E/π, error", best: true },
-    { key: "worst", title: "Largest", group: "Irradiance E/π, error", best: true, value: (method) => method.irradiance_worst?.error },
-    { key: "encode_ms", title: "Encode ms", group: "Time", best: true },
-    { key: "evaluate_ns_per_normal", title: "Evaluate ns", group: "Time", best: true, hint: "For one normal" },
+    ...column_group("Method", { text: true }, [
+        { key: "basis", title: "Basis" },
+        { key: "encoder", title: "Encoder" },
+        { key: "evaluator", title: "Evaluator" },
+        { key: "domain", title: "Domain", absent: domains.length < 2 },
+    ]),
+    ...column_group("Size", { show: count_text }, [
+        { key: "floats", title: "Floats" },
+        { key: "bytes", title: "Bytes" },
+    ]),
+    ...column_group("Radiance L, error", { best: true }, [
+        { key: "radiance_rms", title: "RMS" },
+        { key: "radiance_rms_unweighted", title: "RMS unw.", extra: true, hint: "Every texel counts alike" },
+        { key: "radiance_smape", title: "sMAPE" },
+        { key: "radiance_relmse", title: "relMSE" },
+        { key: "negative_share", title: "Negative %", show: share_text, hint: "Directions of negative radiance" },
+    ]),
+    ...column_group("Irradiance E/π, error", { best: true }, [
+        { key: "irradiance_over_pi_rms", title: "RMS" },
+        { key: "irradiance_over_pi_rms_unweighted", title: "RMS unw.", extra: true, hint: "Every texel counts alike" },
+        { key: "irradiance_smape", title: "sMAPE" },
+        { key: "irradiance_relmse", title: "relMSE" },
+        { key: "worst", title: "Largest", value: (method) => method.irradiance_worst?.error },
+    ]),
+    ...column_group("Time", { best: true }, [
+        { key: "encode_ms", title: "Encode ms" },
+        { key: "evaluate_ns_per_normal", title: "Evaluate ns", hint: "For one normal" },
+    ]),
 ].filter((column) => !column.absent);
 
 const method_table = {
-    sort: methods.length > 12 ? "irradiance_over_pi_rms" : null,  // a short list keeps its order
+    sort: methods.length > 12 ? "irradiance_over_pi_rms" : null, // a short list keeps its order
     descending: false,
     filter: { basis: "", encoder: "", evaluator: "", domain: "", text: "" },
     extra: false,
-    rows: new Map(),  // method -> its row
+    rows: new Map(), // method -> its row
 };
 
 const value_of = (method, column) => (column.value ? column.value(method) : method[column.key]);
@@ -37,50 +51,82 @@ const shown_columns = () => method_columns.filter((column) => method_table.extra
 // ---- Filters
 
 function build_filters() {
-    const { filter } = method_table, form = document.getElementById("filters");
+    const { filter } = method_table;
+    const form = by_id("filters");
     const select_of = (key) => {
-        const values = [...new Set(methods.map((method) => method[key]))].sort((a, b) => a.localeCompare(b, "en", { numeric: true }));
+        const values = [...new Set(methods.map((method) => method[key]))].sort((a, b) =>
+            a.localeCompare(b, "en", { numeric: true }),
+        );
         if (values.length < 2) return null;
-        const options = values.map((value) => element("option", { value }, value));
-        return element("label", {}, key[0].toUpperCase() + key.slice(1), element("select", { onchange: (event) => {
-            filter[key] = event.target.value;
+        const options = [["", "all"], ...values.map((value) => [value, value])];
+        const choose = (value) => {
+            filter[key] = value;
             fill_method_table();
-        } }, element("option", { value: "" }, "all"), ...options));
+        };
+        return element("label", capitalised(key), select_element(options, "", choose));
     };
-    const text = element("input", { type: "search", placeholder: "sg least …", spellcheck: "false", oninput: (event) => {
-        filter.text = event.target.value;
-        fill_method_table();
-    } });
-    const extra = element("input", { type: "checkbox", onchange: (event) => {
-        method_table.extra = event.target.checked;
-        build_method_table();
-    } });
-    form.append(element("label", { class: "search" }, "Name", text), ...["basis", "encoder", "evaluator", "domain"].map(select_of).filter(Boolean),
-                element("label", { class: "check" }, extra, "Unweighted RMS"));
+    const text = element("input", {
+        type: "search",
+        placeholder: "sg least …",
+        spellcheck: "false",
+        oninput: (event) => {
+            filter.text = event.target.value;
+            fill_method_table();
+        },
+    });
+    const extra = element("input", {
+        type: "checkbox",
+        onchange: (event) => {
+            method_table.extra = event.target.checked;
+            build_method_table();
+        },
+    });
+    form.append(
+        element("label.search", "Name", text),
+        ...["basis", "encoder", "evaluator", "domain"].map(select_of).filter(Boolean),
+        element("label.check", extra, "Unweighted RMS"),
+    );
     form.addEventListener("submit", (event) => event.preventDefault());
 }
 
 /// Every word of the text must be part of the name.
 function passes_filter(method) {
     const { text, ...keys } = method_table.filter;
-    return Object.entries(keys).every(([key, value]) => !value || method[key] === value) &&
-        text.toLowerCase().split(/\s+/).every((word) => method.name.toLowerCase().includes(word));
+    return (
+        Object.entries(keys).every(([key, value]) => !value || method[key] === value) &&
+        text
+            .toLowerCase()
+            .split(/\s+/)
+            .every((word) => method.name.toLowerCase().includes(word))
+    );
 }
 
 // ---- Rows
 
 function build_method_table() {
-    const columns = shown_columns(), table = document.getElementById("methods");
+    const columns = shown_columns();
+    const table = by_id("methods");
     const groups = [];
     for (const { group } of columns) {
         if (groups.at(-1)?.group === group) ++groups.at(-1).span;
         else groups.push({ group, span: 1 });
     }
-    const group_row = element("tr", { class: "groups" }, element("td", {}),
-        ...groups.map(({ group, span }) => element("th", { colspan: span, scope: "colgroup" }, group)));
-    const head = element("tr", {}, element("th", { scope: "col", class: "pin" }, element("span", { class: "off-screen" }, "Pin")), ...columns.map(column_heading));
+    const group_row = element(
+        "tr.groups",
+        element("td"),
+        ...groups.map(({ group, span }) => element("th", { colspan: span, scope: "colgroup" }, group)),
+    );
+    const head = element(
+        "tr",
+        element("th", { scope: "col", class: "pin" }, element("span.off-screen", "Pin")),
+        ...columns.map(column_heading),
+    );
     method_table.rows = new Map(methods.map((method) => [method, method_row(method, columns)]));
-    table.replaceChildren(element("caption", { class: "off-screen" }, "All methods with their errors"), element("thead", {}, group_row, head), element("tbody", {}));
+    table.replaceChildren(
+        element("caption.off-screen", "All methods with their errors"),
+        element("thead", group_row, head),
+        element("tbody"),
+    );
     fill_method_table();
 }
 
@@ -90,32 +136,70 @@ function first_of_group(column, columns) {
 }
 
 function column_heading(column, i, columns) {
-    const button = element("button", { type: "button", title: column.hint, onclick: () => {
-        method_table.descending = method_table.sort === column.key && !method_table.descending;
-        method_table.sort = column.key;
-        fill_method_table();
-    } }, column.title);
-    return element("th", { scope: "col", class: `${column.text ? "text" : ""}${first_of_group(column, columns) ? " group" : ""}`, "data-key": column.key }, button);
+    const sorter = button(
+        "",
+        {
+            title: column.hint,
+            onclick: () => {
+                method_table.descending = method_table.sort === column.key && !method_table.descending;
+                method_table.sort = column.key;
+                fill_method_table();
+            },
+        },
+        column.title,
+    );
+    return element(
+        "th",
+        {
+            scope: "col",
+            class: `${column.text ? "text" : ""}${first_of_group(column, columns) ? " group" : ""}`,
+            "data-key": column.key,
+        },
+        sorter,
+    );
 }
 
 function method_row(method, columns) {
-    const pin = element("button", { type: "button", class: "quiet", tabindex: -1, "aria-label": `Pin ${method.name}`, title: "Pin to the pictures (P)", onclick: (event) => {
-        event.stopPropagation();
-        toggle_pin(method);
-    } });
-    const cells = columns.map((column) => {
-        const value = value_of(method, column), text = column.text ? value : (column.show ?? figure_text)(value);
-        return element("td", { class: `${column.text ? "text" : "number"}${first_of_group(column, columns) ? " group" : ""}`, "data-key": column.key }, text);
+    const pin = button("quiet", {
+        tabindex: -1,
+        "aria-label": `Pin ${method.name}`,
+        title: "Pin to the pictures (P)",
+        onclick: (event) => {
+            event.stopPropagation();
+            toggle_pin(method);
+        },
     });
-    return element("tr", { tabindex: -1, "data-name": method.name, onclick: (event) => {
-        focus_row(event.currentTarget);
-        open_detail(method);
-    } }, element("td", { class: "pin" }, pin), ...cells);
+    const cells = columns.map((column) => {
+        const value = value_of(method, column),
+            text = column.text ? value : (column.show ?? figure_text)(value);
+        return element(
+            "td",
+            {
+                class: `${column.text ? "text" : "number"}${first_of_group(column, columns) ? " group" : ""}`,
+                "data-key": column.key,
+            },
+            text,
+        );
+    });
+    return element(
+        "tr",
+        {
+            tabindex: -1,
+            "data-name": method.name,
+            onclick: (event) => {
+                focus_row(event.currentTarget);
+                open_detail(method);
+            },
+        },
+        element("td.pin", pin),
+        ...cells,
+    );
 }
 
 /// Sorts, filters and marks the rows; the rows themselves stay.
 function fill_method_table() {
-    const column = method_columns.find(({ key }) => key === method_table.sort), sign = method_table.descending ? -1 : 1;
+    const column = method_columns.find(({ key }) => key === method_table.sort);
+    const sign = method_table.descending ? -1 : 1;
     const shown = methods.filter(passes_filter);
     if (column) shown.sort((a, b) => compare_values(value_of(a, column), value_of(b, column), sign));
     const rows = shown.map((method) => method_table.rows.get(method));
@@ -126,19 +210,24 @@ function fill_method_table() {
         if (rows.length) rows[0].tabIndex = 0;
     }
     for (const heading of document.querySelectorAll("#methods th[data-key]")) {
-        if (heading.dataset.key === method_table.sort) heading.setAttribute("aria-sort", method_table.descending ? "descending" : "ascending");
+        if (heading.dataset.key === method_table.sort)
+            heading.setAttribute("aria-sort", method_table.descending ? "descending" : "ascending");
         else heading.removeAttribute("aria-sort");
     }
     mark_best(shown);
     mark_rows();
-    const count = shown.length === methods.length ? `${methods.length} methods.` : `${shown.length} of ${methods.length} methods.`;
-    document.getElementById("methods-count").textContent = count;
+    const count =
+        shown.length === methods.length
+            ? `${methods.length} methods.`
+            : `${shown.length} of ${methods.length} methods.`;
+    by_id("methods-count").textContent = count;
 }
 
 /// What is missing comes last in both orders.
 function compare_values(a, b, sign) {
     if (typeof a === "string") return sign * a.localeCompare(b, "en", { numeric: true });
-    const missing_a = !Number.isFinite(a), missing_b = !Number.isFinite(b);
+    const missing_a = !Number.isFinite(a);
+    const missing_b = !Number.isFinite(b);
     return missing_a || missing_b ? missing_a - missing_b : sign * (a - b);
 }
 
@@ -151,7 +240,8 @@ function mark_best(shown) {
             const least = Math.min(...rivals.map((method) => value_of(method, column)).filter(Number.isFinite));
             const winners = rivals.filter((method) => value_of(method, column) === least);
             if (rivals.length < 2 || winners.length > Math.max(1, rivals.length / 4)) continue;
-            for (const method of winners) method_table.rows.get(method).querySelector(`[data-key="${column.key}"]`).classList.add("best");
+            for (const method of winners)
+                method_table.rows.get(method).querySelector(`[data-key="${column.key}"]`).classList.add("best");
         }
     }
 }
@@ -175,8 +265,14 @@ function focus_row(row) {
 function on_method_key(event) {
     const row = event.target.closest("tbody tr");
     if (!row || event.target !== row || event.ctrlKey || event.metaKey || event.altKey) return;
-    const method = method_by_name.get(row.dataset.name), siblings = [...row.parentNode.children];
-    const targets = { ArrowDown: row.nextSibling, ArrowUp: row.previousSibling, Home: siblings[0], End: siblings.at(-1) };
+    const method = method_by_name.get(row.dataset.name);
+    const siblings = [...row.parentNode.children];
+    const targets = {
+        ArrowDown: row.nextSibling,
+        ArrowUp: row.previousSibling,
+        Home: siblings[0],
+        End: siblings.at(-1),
+    };
     if (event.key in targets) {
         if (targets[event.key]) focus_row(targets[event.key]);
         if (detail.method && targets[event.key]) open_detail(method_by_name.get(targets[event.key].dataset.name));

@@ -1,29 +1,41 @@
 // Puts the page together: header, controls, and what changes what.
 "use strict";
 
-const by_id = (id) => document.getElementById(id);
-
 function build_header() {
     const { environment = {}, settings = {} } = report;
     document.title = `${environment.name ?? "Environment"} – Lobelia report`;
-    by_id("brand").textContent = settings.recipe ? `Lobelia, the ${settings.recipe} recipe` : "Lobelia, comparison of methods";
+    by_id("brand").textContent = settings.recipe
+        ? `Lobelia, the ${settings.recipe} recipe`
+        : "Lobelia, comparison of methods";
     by_id("environment-name").textContent = environment.name ?? "Environment";
-    by_id("made-by").textContent = `Made by Lobelia ${report.lobelia ?? ""}, report format ${report.format ?? "unknown"}. Charts: Chart.js, MIT licence.`;
+    by_id("made-by").textContent =
+        `Made by Lobelia ${report.lobelia ?? ""}, report format ${report.format ?? 1}. Charts: Chart.js, MIT licence.`;
 
     const size = environment.width ? `${environment.width} × ${environment.height} texels` : null;
-    const source = environment.source_width && environment.source_width !== environment.width ? `, reduced from ${environment.source_width} × ${environment.source_height}` : "";
-    const facts = [["Environment", size && size + source], ["Mean radiance", environment.mean_radiance && environment.mean_radiance.map(figure_text).join("  ")],
-                   ["Methods", String(methods.length)]];
-    for (const [key, value] of Object.entries(settings)) if (value !== null && key !== "recipe") facts.push([key.replaceAll("_", " "), setting_text(value)]);
-    by_id("summary").append(...facts.filter(([, value]) => value).map(([name, value]) => element("div", {}, element("dt", {}, name), element("dd", {}, value))));
+    const source =
+        environment.source_width && environment.source_width !== environment.width
+            ? `, reduced from ${environment.source_width} × ${environment.source_height}`
+            : "";
+    const facts = [
+        ["Environment", size && size + source],
+        ["Mean radiance", environment.mean_radiance && environment.mean_radiance.map(figure_text).join("  ")],
+        ["Methods", String(methods.length)],
+    ];
+    for (const [key, value] of Object.entries(settings))
+        if (value !== null && key !== "recipe") facts.push([key.replaceAll("_", " "), setting_text(value)]);
+    by_id("summary").append(
+        ...facts
+            .filter(([, value]) => value)
+            .map(([name, value]) => element("div", element("dt", name), element("dd", value))),
+    );
 
     const warnings = environment.warnings ?? [];
     by_id("warnings").hidden = warnings.length === 0;
-    by_id("warnings").append(...warnings.map((text) => element("li", {}, text)));
+    by_id("warnings").append(...warnings.map((text) => element("li", text)));
 }
 
 function setting_text(value) {
-    if (typeof value === "number") return Number.isInteger(value) ? figure_text_whole(value) : figure_text(value);
+    if (typeof value === "number") return Number.isInteger(value) ? count_text(value) : figure_text(value);
     return typeof value === "object" ? JSON.stringify(value) : String(value);
 }
 
@@ -75,7 +87,9 @@ function connect_page() {
     document.addEventListener("keydown", (event) => {
         if (event.key === "Escape") close_detail();
     });
-    new ResizeObserver(([{ target }]) => document.documentElement.style.setProperty("--toolbar-height", `${target.offsetHeight}px`)).observe(by_id("toolbar"));
+    new ResizeObserver(([{ target }]) =>
+        document.documentElement.style.setProperty("--toolbar-height", `${target.offsetHeight}px`),
+    ).observe(by_id("toolbar"));
     addEventListener("resize", () => {
         lay_out_pictures();
         repaint(".sphere");
@@ -84,9 +98,10 @@ function connect_page() {
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", build_plots);
 }
 
-by_id("pictures-rule").textContent = picture_table.chosen.length === methods.length
-    ? "All methods of this report beside the reference."
-    : "The method of lowest irradiance error from each family of bases; pin others from the table below.";
+by_id("pictures-rule").textContent =
+    picture_table.chosen.length === methods.length
+        ? "All methods of this report beside the reference."
+        : "The best methods, by irradiance error, of each family of bases and of the smaller bases; the table pins others.";
 build_header();
 build_filters();
 build_picture_table();
@@ -95,4 +110,4 @@ connect_controls();
 connect_page();
 set_exposure(0);
 turn_spheres(0);
-build_plots();
+setTimeout(build_plots); // below the fold: let the pictures come first
