@@ -57,15 +57,17 @@ Result<OpenFile> open(const std::filesystem::path& path, std::string_view name) 
     return file;
 }
 
-/// All of a file, also of one without a size such as a pipe.
-Result<std::vector<std::byte>> read_all(OpenFile file, std::string_view name, const ReadOptions& options) {
+/// All of a file of about `size_hint` bytes, also of one without a size such as a pipe.
+Result<std::vector<std::byte>> read_all(OpenFile file, std::size_t size_hint, std::string_view name,
+                                        const ReadOptions& options) {
     // No format takes more bytes for a pixel; the rest is for headers.
     const std::size_t most_bytes = 16 * options.most_pixels + (std::size_t{64} << 20);
     constexpr std::size_t k_step = std::size_t{1} << 20;
     std::vector<std::byte> bytes = std::move(file.begin);
+    bytes.reserve(std::min(size_hint + k_step, most_bytes));
     for (;;) {
         const std::size_t old_size = bytes.size();
-        bytes.resize(old_size + std::max(k_step, old_size / 2));
+        bytes.resize(std::max(old_size + k_step, bytes.capacity()));
         const std::size_t read = std::fread(bytes.data() + old_size, 1, bytes.size() - old_size, file.handle.get());
         bytes.resize(old_size + read);
         if (std::ferror(file.handle.get())) return system_error(name, errno);
@@ -84,18 +86,17 @@ Result<LoadedImage> read_environment(const std::filesystem::path& path, const Re
     const std::optional<Format> format = format_of(file->begin);
     if (!format) return unknown_format(name, file->begin.size());
 
-    // Read OpenEXR in place.
+    // Read OpenEXR in place, and all else whole.
     std::error_code code;
-    if (*format == Format::openexr && std::filesystem::is_regular_file(path, code)) {
-        const std::uintmax_t size = std::filesystem::file_size(path, code);
-        if (code) return system_error(name, code.value());
+    const bool regular = std::filesystem::is_regular_file(path, code);
+    const std::uintmax_t size = regular ? std::filesystem::file_size(path, code) : 0;
+    if (regular && code) return system_error(name, code.value());
+    if (regular && *format == Format::openexr) {
         std::rewind(file->handle.get());
         io::FileInput in(std::move(file->handle), size, name);
         return io::read_exr(in, name, options);
     }
-
-    // Read all else whole.
-    const Result<std::vector<std::byte>> bytes = read_all(std::move(*file), name, options);
+    const Result<std::vector<std::byte>> bytes = read_all(std::move(*file), size, name, options);
     if (!bytes) return bytes.error();
     return read_environment(*bytes, name, options);
 }
