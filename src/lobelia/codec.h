@@ -44,6 +44,8 @@ class Codec {
 [[nodiscard]] std::vector<std::string> encoder_names();
 /// Encoders that make sense for a basis: the non-negative ones only where its functions are non-negative.
 [[nodiscard]] std::vector<std::string> encoder_names(const Basis& basis);
+/// The listed encoder whose solution this one strives for: least squares, its non-negative form, or the joint norm's.
+[[nodiscard]] std::string encoder_limit(std::string_view encoder);
 /// The sensible product of the lists.
 [[nodiscard]] std::vector<CodecName> all_codecs();
 

@@ -25,6 +25,7 @@ enum class Needs { any_basis, non_negative_basis };
 struct EncoderEntry {
     const char* name;
     Needs needs;
+    const char* limit;  ///< the encoder whose solution this one strives for
     EncoderPtr (*make)(BasisPtr);
 };
 
@@ -42,18 +43,18 @@ EncoderPtr running_average(BasisPtr basis) {
 }
 
 constexpr std::array k_encoders = {
-    EncoderEntry{"projection", Needs::any_basis, moments<MomentSolver::projection>},
-    EncoderEntry{"running-average", Needs::non_negative_basis, running_average<Sign::any>},
-    EncoderEntry{"running-average-nn", Needs::non_negative_basis, running_average<Sign::non_negative>},
-    EncoderEntry{"progressive", Needs::any_basis, progressive<Sign::any>},
-    EncoderEntry{"progressive-nn", Needs::non_negative_basis, progressive<Sign::non_negative>},
-    EncoderEntry{"moments", Needs::any_basis, moments<MomentSolver::analytic_gram>},
-    EncoderEntry{"least-squares", Needs::any_basis, moments<MomentSolver::sampled_gram>},
-    EncoderEntry{"regularised", Needs::any_basis, moments<MomentSolver::regularised>},
-    EncoderEntry{"matrix-gain", Needs::any_basis, make_matrix_gain},
-    EncoderEntry{"nnls", Needs::non_negative_basis, moments<MomentSolver::non_negative>},
-    EncoderEntry{"joint", Needs::any_basis, moments<MomentSolver::joint>},
-    EncoderEntry{"joint-nn", Needs::non_negative_basis, moments<MomentSolver::joint_non_negative>},
+    EncoderEntry{"projection", Needs::any_basis, "least-squares", moments<MomentSolver::projection>},
+    EncoderEntry{"running-average", Needs::non_negative_basis, "least-squares", running_average<Sign::any>},
+    EncoderEntry{"running-average-nn", Needs::non_negative_basis, "nnls", running_average<Sign::non_negative>},
+    EncoderEntry{"progressive", Needs::any_basis, "least-squares", progressive<Sign::any>},
+    EncoderEntry{"progressive-nn", Needs::non_negative_basis, "nnls", progressive<Sign::non_negative>},
+    EncoderEntry{"moments", Needs::any_basis, "least-squares", moments<MomentSolver::analytic_gram>},
+    EncoderEntry{"least-squares", Needs::any_basis, "least-squares", moments<MomentSolver::sampled_gram>},
+    EncoderEntry{"regularised", Needs::any_basis, "least-squares", moments<MomentSolver::regularised>},
+    EncoderEntry{"matrix-gain", Needs::any_basis, "least-squares", make_matrix_gain},
+    EncoderEntry{"nnls", Needs::non_negative_basis, "nnls", moments<MomentSolver::non_negative>},
+    EncoderEntry{"joint", Needs::any_basis, "joint", moments<MomentSolver::joint>},
+    EncoderEntry{"joint-nn", Needs::non_negative_basis, "joint-nn", moments<MomentSolver::joint_non_negative>},
 };
 
 bool suits(const EncoderEntry& entry, const Basis& basis) {
@@ -93,6 +94,12 @@ std::vector<std::string> encoder_names(const Basis& basis) {
     for (const auto& entry : k_encoders)
         if (suits(entry, basis)) names.emplace_back(entry.name);
     return names;
+}
+
+std::string encoder_limit(std::string_view encoder) {
+    for (const auto& entry : k_encoders)
+        if (entry.name == encoder) return entry.limit;
+    return std::string(encoder);
 }
 
 std::vector<CodecName> all_codecs() {

@@ -171,6 +171,17 @@ Samples directed_samples(const Image& environment, DirectionView directions, Dom
     return samples;
 }
 
+Colours radiance_of(const Image& image) {
+    Colours result(image.pixels.size());
+    for (std::size_t i = 0; i < image.pixels.size(); ++i) set_entry(result.view(), i, image.pixels[i]);
+    return result;
+}
+
+Rgb mean_radiance(const Image& environment) {
+    const Image whole = resize(environment, {1, 1});
+    return whole.pixels[0];
+}
+
 void irradiance_sum(SampleView samples, DirectionView normals, MutableColourView out) {
     assert(normals.size == out.size);
     kernels::irradiance_sum(samples, normals, out);

@@ -53,6 +53,12 @@ struct LatLong {
 /// A sample for each direction: the value of the nearest texel, and an equal share of the domain.
 [[nodiscard]] Samples directed_samples(const Image& environment, DirectionView directions, Domain domain);
 
+/// The pixels as colours, row by row.
+[[nodiscard]] Colours radiance_of(const Image& image);
+
+/// Mean radiance over the sphere, each texel weighted by its solid angle.
+[[nodiscard]] Rgb mean_radiance(const Image& environment);
+
 /// Exact irradiance E(n) = sum_j L_j omega_j max(0, n . d_j) [W/m^2] of `samples` at each normal.
 void irradiance_sum(SampleView samples, DirectionView normals, MutableColourView out);
 

@@ -1,0 +1,99 @@
+// What several verbs share.
+#include "cli/common.h"
+
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <charconv>
+#include <chrono>
+#include <fstream>
+#include <iterator>
+
+#include "lobelia/sky.h"
+
+namespace lobelia::cli {
+
+void add_environment_options(CLI::App& command, EnvironmentOptions& options) {
+    command.add_option("ENV", options.path,
+                       "A latitude-longitude environment, .hdr or .exr, or \"sky\" for the embedded one")
+        ->required();
+    command.add_flag("--ldr", options.read.ldr, "Accept PNG and JPEG too (decoded from sRGB; highlights are cut off)");
+    command.add_flag("--sanitize", options.read.sanitize,
+                     "Replace NaN, infinite and negative texels by 0 where they are otherwise refused");
+    command.add_option("--sky-size", options.sky_size, "Texels of the embedded sky, WxH")->capture_default_str();
+    command.add_option("--sun-elevation", options.sun_elevation, "Of the embedded sky [degrees]")
+        ->check(CLI::Range(1.0, 90.0))
+        ->capture_default_str();
+    command.add_option("--turbidity", options.turbidity, "Haze of the embedded sky")
+        ->check(CLI::Range(2.0, 10.0))
+        ->capture_default_str();
+}
+
+Result<LoadedEnvironment> load(const EnvironmentOptions& options) {
+    if (options.path == "sky") {
+        auto grid = parse_grid(options.sky_size);
+        if (!grid) return Error{"--sky-size: " + grid.error().message};
+        SkyOptions sky_options;
+        sky_options.sun_elevation = options.sun_elevation;
+        sky_options.turbidity = options.turbidity;
+        return LoadedEnvironment{sky(*grid, sky_options), {"sky", *grid, {}, 0}};
+    }
+    auto loaded = read_environment(options.path, options.read);
+    if (!loaded) return loaded.error();
+    for (const auto& warning : loaded->warnings) fmt::print(stderr, "lobelia: warning: {}\n", warning);
+    EnvironmentInfo info{std::filesystem::path(options.path).filename().string(), lat_long(loaded->image),
+                         loaded->warnings, loaded->sanitized.total()};
+    return LoadedEnvironment{std::move(loaded->image), std::move(info)};
+}
+
+void add_sampling_options(CLI::App& command, SamplingOptions& options) {
+    std::vector<std::string> names = {"texels"};
+    for (Sequence sequence : k_sequences) names.emplace_back(sequence_name(sequence));
+    command.add_option("--sequence", options.sequence, "Where samples are taken; texels: each one once, shuffled")
+        ->check(CLI::IsMember(names))
+        ->capture_default_str();
+    command.add_option("--samples", options.samples, "How many, for a sequence other than texels")
+        ->check(CLI::Range(std::size_t{1}, std::size_t{100'000'000}))
+        ->capture_default_str();
+    command.add_option("--seed", options.seed, "Of the sequence and the shuffle, 0 to 4294967295")
+        ->capture_default_str();
+}
+
+Result<LatLong> parse_grid(const std::string& text) {
+    const Error error{"\"" + text + "\" is not a size such as 256x128 (at most 2^26 texels)"};
+    LatLong grid;
+    const char* end = text.data() + text.size();
+    auto [x, width_error] = std::from_chars(text.data(), end, grid.width);
+    if (width_error != std::errc() || x == end || *x != 'x') return error;
+    auto [rest, height_error] = std::from_chars(x + 1, end, grid.height);
+    constexpr std::size_t most = std::size_t{1} << 26;
+    if (height_error != std::errc() || rest != end || grid.width < 1 || grid.height < 1 || grid.width > most ||
+        grid.height > most || grid.size() > most)
+        return error;
+    return grid;
+}
+
+Progress progress_bar() {
+    if (isatty(STDERR_FILENO) == 0) return {};
+    const auto start = std::chrono::steady_clock::now();
+    return [start, shown = false](double done) mutable {
+        const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        if (seconds < 1 || (done >= 1 && !shown)) return;
+        constexpr int width = 40;
+        const int filled = static_cast<int>(done * width);
+        fmt::print(stderr, "\r[{:=<{}}{: <{}}] {:3.0f} %", "", filled, "", width - filled, 100 * done);
+        if (done >= 1 - 1e-9) fmt::print(stderr, "\r\033[K");
+        std::fflush(stderr);
+        shown = true;
+    };
+}
+
+Result<std::string> read_text(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    if (!file || std::filesystem::is_directory(path)) return Error{path + ": cannot be opened"};
+    std::string text{std::istreambuf_iterator<char>(file), {}};
+    if (file.bad()) return Error{path + ": cannot be read"};
+    return text;
+}
+
+}  // namespace lobelia::cli

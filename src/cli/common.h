@@ -1,0 +1,50 @@
+// What several verbs share: the environment argument, grid sizes, progress, output.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include "io/read_image.h"
+#include "report/comparison.h"
+#include "report/json.h"
+
+namespace lobelia::cli {
+
+/// The options that name and read an environment.
+struct EnvironmentOptions {
+    std::string path;
+    ReadOptions read;
+    std::string sky_size = "512x256";
+    double sun_elevation = 40;
+    double turbidity = 3;
+};
+
+void add_environment_options(CLI::App& command, EnvironmentOptions& options);
+
+/// An environment and what to say of it.
+struct LoadedEnvironment {
+    Image image;
+    EnvironmentInfo info;
+};
+
+/// Reads the file, or makes the sky. Warnings go to stderr.
+[[nodiscard]] Result<LoadedEnvironment> load(const EnvironmentOptions& options);
+
+/// How samples are taken of it.
+struct SamplingOptions {
+    std::string sequence = "texels";
+    std::size_t samples = 20000;
+    std::uint32_t seed = 1;
+};
+
+void add_sampling_options(CLI::App& command, SamplingOptions& options);
+
+/// "256x128" as a grid of at least 1 x 1 and at most 2^26 texels.
+[[nodiscard]] Result<LatLong> parse_grid(const std::string& text);
+
+/// A bar on stderr for work that lasts over a second, only where stderr is a terminal.
+[[nodiscard]] Progress progress_bar();
+
+/// The whole of a text file.
+[[nodiscard]] Result<std::string> read_text(const std::string& path);
+
+}  // namespace lobelia::cli

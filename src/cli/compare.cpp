@@ -1,0 +1,150 @@
+// lobelia compare: every codec on an environment, as a page and a JSON file.
+#include <fmt/core.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "cli/common.h"
+#include "cli/verbs.h"
+#include "io/write_file.h"
+#include "report/recipe.h"
+
+namespace lobelia::cli {
+namespace {
+
+struct Options {
+    EnvironmentOptions environment;
+    SamplingOptions sampling;
+    std::string out = "lobelia-report";
+    std::vector<std::string> codecs, bases, encoders, evaluators;
+    std::string recipe;
+    bool json_only = false;
+    bool convergence = true;
+};
+
+/// The codecs that the options name: those of --codec, or the list's (and any other basis named), filtered.
+Result<std::vector<CodecName>> chosen_codecs(const Options& options) {
+    if (!options.codecs.empty()) {
+        std::vector<CodecName> chosen;
+        for (const auto& name : options.codecs) {
+            const auto codec = make_codec(name);
+            if (!codec) return codec.error();
+            if (std::find(chosen.begin(), chosen.end(), codec->name()) == chosen.end()) chosen.push_back(codec->name());
+        }
+        return chosen;
+    }
+    const auto wants = [](const std::vector<std::string>& wanted, const std::string& name) {
+        return wanted.empty() || std::find(wanted.begin(), wanted.end(), name) != wanted.end();
+    };
+    const auto known_encoders = encoder_names();
+    for (const auto& name : options.encoders)
+        if (!wants(known_encoders, name))
+            return Error{"unknown encoder \"" + name + "\"" + nearest_names(name, known_encoders)};
+    std::vector<CodecName> chosen;
+    std::vector<std::string> known_evaluators;
+    for (const auto& basis_name : options.bases.empty() ? basis_names() : options.bases) {
+        const auto basis = make_basis(basis_name);
+        if (!basis) return basis.error();
+        const auto evaluators = (*basis)->evaluator_names();
+        known_evaluators.insert(known_evaluators.end(), evaluators.begin(), evaluators.end());
+        for (const auto& encoder : encoder_names(**basis))
+            for (const auto& evaluator : evaluators)
+                if (wants(options.encoders, encoder) && wants(options.evaluators, evaluator))
+                    chosen.push_back({basis_name, encoder, evaluator});
+    }
+    for (const auto& name : options.evaluators)
+        if (!wants(known_evaluators, name))
+            return Error{"unknown evaluator \"" + name + "\"" + nearest_names(name, known_evaluators)};
+    if (chosen.empty()) return Error{"no codec is left: the encoders named do not suit the bases named"};
+    return chosen;
+}
+
+Result<Comparison> run(const Options& options, const Image& environment) {
+    ComparisonOptions comparison;
+    comparison.seed = options.sampling.seed;
+    comparison.sequence = sequence_from_name(options.sampling.sequence);
+    comparison.samples = options.sampling.samples;
+    comparison.pictures = !options.json_only;
+    comparison.convergence = !options.json_only && options.convergence;
+    if (!options.recipe.empty())
+        return run_recipe(options.recipe == "published" ? Recipe::published : Recipe::updated, environment, comparison,
+                          progress_bar());
+    auto codecs = chosen_codecs(options);
+    if (!codecs) return codecs.error();
+    return compare(environment, *codecs, comparison, progress_bar());
+}
+
+/// The folder, made if missing; checked before the work, so that a bad one costs no time.
+Status prepare_folder(const std::filesystem::path& folder) {
+    std::error_code code;
+    std::filesystem::create_directories(folder, code);
+    if (code) return Error{folder.string() + ": cannot be made a folder for the report: " + code.message()};
+    return Done{};
+}
+
+void print_summary(const Comparison& comparison) {
+    fmt::print("{:<42} {:>6} {:>12} {:>12} {:>12}\n", "codec", "bytes", "L rms", "E/pi rms", "E sMAPE");
+    std::vector<const Method*> ranked;
+    for (const auto& method : comparison.methods) ranked.push_back(&method);
+    if (comparison.recipe.empty()) {
+        std::stable_sort(ranked.begin(), ranked.end(), [](const Method* a, const Method* b) {
+            return a->irradiance_over_pi.rms < b->irradiance_over_pi.rms;
+        });
+    }
+    constexpr std::size_t most = 12;
+    for (std::size_t i = 0; i < std::min(most, ranked.size()); ++i) {
+        const Method& m = *ranked[i];
+        const bool published = !comparison.recipe.empty();
+        fmt::print("{:<42} {:>6} {:>12.6g} {:>12.6g} {:>12.4g}\n", m.name.str(), 12 * m.c.size(),
+                   published ? m.radiance.rms_unweighted : m.radiance.rms,
+                   published ? m.irradiance_over_pi.rms_unweighted : m.irradiance_over_pi.rms,
+                   m.irradiance_over_pi.smape);
+    }
+    if (ranked.size() > most) fmt::print("... and {} more, in the report\n", ranked.size() - most);
+}
+
+Status compare_verb(const Options& options) {
+    // Names first, then files: what is cheap to refuse is refused first.
+    if (options.recipe.empty())
+        if (const auto codecs = chosen_codecs(options); !codecs) return codecs.error();
+    auto environment = load(options.environment);
+    if (!environment) return environment.error();
+    const std::filesystem::path folder = options.out;
+    if (auto status = prepare_folder(folder); !status) return status;
+
+    const auto comparison = run(options, environment->image);
+    if (!comparison) return comparison.error();
+    const auto report = to_json(*comparison, environment->info);
+    const auto text = report.dump(1, ' ', false, nlohmann::json::error_handler_t::replace);
+    if (!options.json_only) {
+        const auto page = report_html(report, to_pictures(*comparison));
+        if (auto status = write_file_atomically(folder / "report.html", page); !status) return status;
+    }
+    if (auto status = write_file_atomically(folder / "report.json", text + "\n"); !status) return status;
+    print_summary(*comparison);
+    fmt::print("{}\n", (folder / (options.json_only ? "report.json" : "report.html")).string());
+    return Done{};
+}
+
+}  // namespace
+
+Verb add_compare(CLI::App& app) {
+    auto options = std::make_shared<Options>();
+    CLI::App* command = app.add_subcommand("compare", "Run codecs on an environment; write report.html and report.json");
+    add_environment_options(*command, options->environment);
+    add_sampling_options(*command, options->sampling);
+    command->add_option("--out", options->out, "Folder of the report")->capture_default_str();
+    command->add_option("--codec", options->codecs, "Only these, as basis/encoder/evaluator (default: all of the list)");
+    command->add_option("--basis", options->bases, "Only these bases, listed or not (sg24, sg12a, sg:lobes.txt)");
+    command->add_option("--encoder", options->encoders, "Only these encoders");
+    command->add_option("--evaluator", options->evaluators, "Only these evaluators");
+    command
+        ->add_option("--recipe", options->recipe,
+                     "Reproduce a published table instead: published (2016) or updated (2018)")
+        ->check(CLI::IsMember({"published", "updated"}));
+    command->add_flag("--json-only", options->json_only, "Write report.json alone: no page, pictures or convergence");
+    command->add_flag("!--no-convergence", options->convergence, "Leave the convergence plots out");
+    return {command, [options] { return compare_verb(*options); }};
+}
+
+}  // namespace lobelia::cli

@@ -1,0 +1,66 @@
+// The lobelia command: chooses the verb, prints errors, returns 0, or 2 for bad input.
+#include <fmt/core.h>
+
+#include <csignal>
+
+#include "cli/verbs.h"
+
+namespace {
+
+constexpr int k_bad_input = 2;
+
+constexpr const char* k_short_help = R"(lobelia bakes light into lobes: it encodes HDR radiance into small spherical bases
+and measures how wrong each choice is.
+
+  lobelia compare sky                      every codec on the embedded sky, as a page
+  lobelia compare room.hdr --out report    the same on an environment of yours
+  lobelia encode room.hdr --codec sh2/least-squares/convolution -o room.json
+  lobelia eval room.json --latlong 64x32 -o irradiance.exr
+  lobelia list                             the codecs
+  lobelia study irradiance                 how good each irradiance formula is
+
+lobelia -h tells more, lobelia VERB -h all of a verb's options.
+)";
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    // A reader that leaves early (| head) ends the output, not the program with a signal.
+    std::signal(SIGPIPE, SIG_IGN);
+
+    CLI::App app{"lobelia bakes light into lobes: encode radiance into spherical bases, measure the error.", "lobelia"};
+    app.set_version_flag("--version", std::string("lobelia ") + LOBELIA_VERSION);
+    app.require_subcommand(0, 1);
+    app.get_formatter()->column_width(36);
+    const std::vector<lobelia::cli::Verb> verbs = {
+        lobelia::cli::add_compare(app), lobelia::cli::add_encode(app), lobelia::cli::add_eval(app),
+        lobelia::cli::add_list(app), lobelia::cli::add_study(app)};
+
+    if (argc == 1) {
+        fmt::print("{}", k_short_help);
+        return 0;
+    }
+    try {
+        app.parse(argc, argv);
+        for (const auto& verb : verbs) {
+            if (!verb.command->parsed()) continue;
+            if (const auto status = verb.action(); !status) {
+                fmt::print(stderr, "lobelia: {}\n", status.error().message);
+                return k_bad_input;
+            }
+            return 0;
+        }
+        fmt::print("{}", k_short_help);
+        return 0;
+    } catch (const CLI::ParseError& error) {
+        if (error.get_exit_code() == 0) return app.exit(error);
+        fmt::print(stderr, "lobelia: {}\nRun with -h for the options.\n", error.what());
+        return k_bad_input;
+    } catch (const std::bad_alloc&) {
+        fmt::print(stderr, "lobelia: not enough memory\n");
+        return k_bad_input;
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "lobelia: {}\n", error.what());
+        return k_bad_input;
+    }
+}

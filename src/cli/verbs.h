@@ -1,0 +1,27 @@
+// The verbs of the command line. Each reads its options, makes one library call and writes what came out.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <string>
+
+#include "lobelia/result.h"
+
+namespace lobelia::cli {
+
+/// What a verb does once its options are read.
+using Action = std::function<Status()>;
+
+/// Each adds its subcommand to `app` and returns what to do when it is chosen.
+struct Verb {
+    CLI::App* command;
+    Action action;
+};
+
+[[nodiscard]] Verb add_compare(CLI::App& app);
+[[nodiscard]] Verb add_encode(CLI::App& app);
+[[nodiscard]] Verb add_eval(CLI::App& app);
+[[nodiscard]] Verb add_list(CLI::App& app);
+[[nodiscard]] Verb add_study(CLI::App& app);
+
+}  // namespace lobelia::cli

@@ -1,0 +1,43 @@
+// Error measures, accumulated in double precision.
+#include "lobelia/metrics.h"
+
+namespace lobelia {
+
+Errors errors(ColourView a, ColourView reference, std::span<const float> weights) {
+    assert(a.size == reference.size && a.size == weights.size());
+    Errors e;
+    double total = 0, worst = -1;
+    for (std::size_t i = 0; i < a.size; ++i) {
+        const double w = weights[i];
+        double squared = 0, relative = 0, symmetric = 0;
+        bool negative = false;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const double x = a.channel(k)[i], r = reference.channel(k)[i], d = x - r;
+            const double magnitude = std::abs(x) + std::abs(r);
+            squared += d * d;
+            relative += d * d / (r * r + 0.01);
+            symmetric += magnitude > 0 ? std::abs(d) / magnitude : 0;
+            negative = negative || x < 0;
+        }
+        total += w;
+        e.rms += w * squared;
+        e.rms_unweighted += squared;
+        e.smape += w * symmetric;
+        e.relmse += w * relative;
+        e.negative_share += negative ? w : 0;
+        if (squared > worst) {
+            worst = squared;
+            e.worst_index = i;
+        }
+    }
+    if (a.size == 0 || !(total > 0)) return e;
+    e.rms = std::sqrt(e.rms / (3 * total));
+    e.rms_unweighted = std::sqrt(e.rms_unweighted / (3 * static_cast<double>(a.size)));
+    e.smape /= 3 * total;
+    e.relmse /= 3 * total;
+    e.negative_share /= total;
+    e.worst = std::sqrt(worst / 3);
+    return e;
+}
+
+}  // namespace lobelia

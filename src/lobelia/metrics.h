@@ -1,0 +1,24 @@
+// How wrong one set of colours is against another.
+#pragma once
+
+#include "lobelia/planes.h"
+
+#include <span>
+
+namespace lobelia {
+
+/// Errors of colours a against a reference r over entries with weights w. All means run over the three channels too.
+struct Errors {
+    double rms = 0;             ///< sqrt(sum w (a - r)^2 / sum w)
+    double rms_unweighted = 0;  ///< the same with every entry counted once
+    double smape = 0;           ///< weighted mean of |a - r| / (|a| + |r|), 0 where both are 0
+    double relmse = 0;          ///< weighted mean of (a - r)^2 / (r^2 + 0.01)
+    double negative_share = 0;  ///< weighted share of entries with a channel below 0
+    double worst = 0;           ///< largest root mean square over channels of one entry, and which entry it is
+    std::size_t worst_index = 0;
+};
+
+/// Precondition: all three of one size, weights >= 0.
+[[nodiscard]] Errors errors(ColourView a, ColourView reference, std::span<const float> weights);
+
+}  // namespace lobelia

@@ -1,0 +1,326 @@
+// The comparison: encode all, evaluate all, judge all, in parallel over codecs.
+#include "report/comparison.h"
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include <atomic>
+#include <chrono>
+#include <mutex>
+
+#include "report/convergence.h"
+
+namespace lobelia {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double milliseconds_since(Clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+/// What one domain is sampled by and judged against.
+struct Stage {
+    Samples samples;                  ///< in the order in which encoders see them
+    Samples judged;                   ///< directions, reference radiance and weights of the judging grid
+    Colours reference_irradiance_over_pi;
+};
+
+void scale(const MutableColourView& colours, float factor) {
+    for (std::size_t k = 0; k < 3; ++k)
+        for (std::size_t i = 0; i < colours.size; ++i) colours.channel(k)[i] *= factor;
+}
+
+constexpr auto k_over_pi = static_cast<float>(1 / k_pi);
+
+/// The entries of a whole grid that a domain's texels are, in their order.
+Colours restricted(const Colours& grid_colours, LatLong grid, Domain domain) {
+    if (domain == Domain::sphere) return grid_colours;
+    const Directions directions = grid.directions();
+    std::vector<std::size_t> kept;
+    for (std::size_t i = 0; i < grid.size(); ++i)
+        if (directions.channel(2)[i] > 0) kept.push_back(i);
+    Colours result(kept.size());
+    for (std::size_t i = 0; i < kept.size(); ++i) set_entry(result.view(), i, colour_at(grid_colours, kept[i]));
+    return result;
+}
+
+/// A basis with its encoders, evaluators and all that was computed of them.
+struct BasisRun {
+    std::shared_ptr<const Basis> basis;
+    std::vector<std::string> encoders;
+    std::vector<std::string> evaluators;
+};
+
+/// One (basis, encoder): coefficients and radiance.
+struct Encoding {
+    const BasisRun* run = nullptr;
+    std::string encoder;
+    std::vector<Rgb> c;
+    double milliseconds = 0;
+    Errors radiance;
+    Colours picture;
+};
+
+/// One (basis, evaluator): irradiance of all the basis's encodings at once.
+struct Reading {
+    const BasisRun* run = nullptr;
+    std::string evaluator;
+    double nanoseconds = 0;
+    std::map<std::string, Errors> irradiance;  ///< by encoder
+    std::map<std::string, Colours> pictures;
+};
+
+/// The whole comparison as it runs.
+class Run {
+  public:
+    Run(const Image& environment, const ComparisonOptions& options, const Progress& progress)
+        : environment_(resize(environment, reduced_grid(lat_long(environment), options.most_texels))),
+          options_(options),
+          progress_(progress) {}
+
+    [[nodiscard]] Result<Comparison> operator()(const std::vector<CodecName>& codecs) {
+        if (auto status = collect(codecs); !status) return status.error();
+        prepare_stages();
+        encode_all();
+        read_all();
+        Comparison result = assemble(codecs);
+        if (options_.convergence) result.convergence = converge();
+        return result;
+    }
+
+  private:
+    /// Groups the codecs by basis, makes each basis once.
+    Status collect(const std::vector<CodecName>& codecs) {
+        const auto add_once = [](std::vector<std::string>& list, const std::string& name) {
+            if (std::find(list.begin(), list.end(), name) == list.end()) list.push_back(name);
+        };
+        for (const CodecName& name : codecs) {
+            auto found = std::find_if(runs_.begin(), runs_.end(),
+                                      [&](const BasisRun& run) { return run.basis->name() == name.basis; });
+            if (found == runs_.end()) {
+                auto basis = make_basis(name.basis);
+                if (!basis) return basis.error();
+                found = runs_.insert(runs_.end(), {*basis, {}, {}});
+            }
+            add_once(found->encoders, name.encoder);
+            add_once(found->evaluators, name.evaluator);
+        }
+        for (const BasisRun& run : runs_) {
+            for (const auto& encoder : run.encoders) encodings_.push_back({&run, encoder, {}, 0, {}, {}});
+            for (const auto& evaluator : run.evaluators) readings_.push_back({&run, evaluator, 0, {}, {}});
+        }
+        return Done{};
+    }
+
+    void prepare_stages() {
+        const Image judged = resize(environment_, k_judging_grid);
+        for (const BasisRun& run : runs_) {
+            const Domain domain = run.basis->domain();
+            if (stages_.contains(domain)) continue;
+            Stage& stage = stages_[domain];
+            stage.samples = arriving_samples(environment_, domain, options_);
+            stage.judged = texel_samples(judged, domain);
+            const Samples texels = texel_samples(environment_, domain);
+            Colours irradiance = lat_long_irradiance(texels, k_judging_grid);
+            scale(irradiance, k_over_pi);
+            stage.reference_irradiance_over_pi = restricted(irradiance, k_judging_grid, domain);
+            if (options_.pictures) {
+                auto& pictures = pictures_.references[domain];
+                pictures.radiance = radiance_of(judged);
+                pictures.irradiance_over_pi = lat_long_irradiance(texels, k_irradiance_picture);
+                scale(pictures.irradiance_over_pi, k_over_pi);
+            }
+        }
+        step(0.2);
+    }
+
+    void encode_all() {
+        const Directions picture_directions = k_radiance_picture.directions();
+        tbb::parallel_for(std::size_t{0}, encodings_.size(), [&](std::size_t i) {
+            Encoding& e = encodings_[i];
+            const Stage& stage = stages_.at(e.run->basis->domain());
+            const auto encoder = make_encoder(e.encoder, e.run->basis).value();
+            const auto start = Clock::now();
+            Accumulator accumulator(encoder);
+            accumulator.add(stage.samples);
+            e.c = accumulator.solve();
+            e.milliseconds = milliseconds_since(start);
+
+            const SampleView judged = stage.judged;
+            Colours radiance(judged.size);
+            evaluate(*e.run->basis, e.c, judged.directions(), radiance);
+            e.radiance = errors(radiance, judged.radiance(), {judged.solid_angles(), judged.size});
+            if (options_.pictures) {
+                e.picture = Colours(picture_directions.size());
+                evaluate(*e.run->basis, e.c, picture_directions, e.picture);
+            }
+            step(0.5 / static_cast<double>(encodings_.size()));
+        });
+    }
+
+    void read_all() {
+        tbb::parallel_for(std::size_t{0}, readings_.size(), [&](std::size_t i) {
+            read(readings_[i]);
+            step(0.3 / static_cast<double>(readings_.size()));
+        });
+    }
+
+    void read(Reading& reading) const {
+        const auto evaluator = make_evaluator(reading.evaluator, *reading.run->basis).value();
+        const Stage& stage = stages_.at(reading.run->basis->domain());
+        const SampleView judged = stage.judged;
+        std::vector<const Encoding*> encodings;
+        for (const Encoding& e : encodings_)
+            if (e.run == reading.run) encodings.push_back(&e);
+
+        auto outputs = irradiance_over_pi(*evaluator, encodings, judged.directions());
+        for (std::size_t k = 0; k < encodings.size(); ++k)
+            reading.irradiance[encodings[k]->encoder] =
+                errors(outputs[k], stage.reference_irradiance_over_pi, {judged.solid_angles(), judged.size});
+        if (options_.pictures) {
+            auto pictures = irradiance_over_pi(*evaluator, encodings, k_irradiance_picture.directions());
+            for (std::size_t k = 0; k < encodings.size(); ++k)
+                reading.pictures[encodings[k]->encoder] = std::move(pictures[k]);
+        }
+
+        // Time one set of coefficients alone, on enough normals to drown the clock.
+        const DirectionView timed = judged.directions().part(0, std::min<std::size_t>(judged.size, 4096));
+        const auto start = Clock::now();
+        evaluator->irradiance(encodings[0]->c, timed, outputs[0].view().part(0, timed.size));
+        reading.nanoseconds = 1e6 * milliseconds_since(start) / static_cast<double>(timed.size);
+    }
+
+    /// E / pi of several encodings of one basis; a linear evaluator's weights are computed once for all.
+    static std::vector<Colours> irradiance_over_pi(const Evaluator& evaluator,
+                                                   const std::vector<const Encoding*>& encodings,
+                                                   DirectionView normals) {
+        std::vector<Colours> outputs(encodings.size(), Colours(normals.size));
+        std::vector<std::span<const Rgb>> c;
+        std::vector<MutableColourView> views;
+        for (std::size_t k = 0; k < encodings.size(); ++k) {
+            c.emplace_back(encodings[k]->c);
+            views.push_back(outputs[k].view());
+        }
+        if (evaluator.weights())
+            evaluate_many(*evaluator.weights(), c, normals, views);
+        else
+            for (std::size_t k = 0; k < c.size(); ++k) evaluator.irradiance(c[k], normals, views[k]);
+        for (auto& view : views) scale(view, k_over_pi);
+        return outputs;
+    }
+
+    [[nodiscard]] Comparison assemble(const std::vector<CodecName>& codecs) {
+        Comparison result;
+        result.reference = "exact sum over texels";
+        result.sequence = options_.sequence ? std::string(sequence_name(*options_.sequence)) : "texels";
+        result.samples = options_.sequence ? options_.samples : environment_.pixels.size();
+        result.seed = options_.seed;
+        result.grid = lat_long(environment_);
+        result.mean_radiance = mean_radiance(environment_);
+        for (const CodecName& name : codecs) {
+            const Encoding& e = encoding(name);
+            const Reading& r = reading(name);
+            result.methods.push_back({name, e.run->basis->domain(), e.c, e.radiance, r.irradiance.at(name.encoder),
+                                      e.milliseconds, r.nanoseconds});
+        }
+        if (options_.pictures) {
+            for (auto& reading : readings_)
+                for (auto& [encoder, picture] : reading.pictures)
+                    pictures_.irradiance_over_pi[CodecName{reading.run->basis->name(), encoder, reading.evaluator}
+                                                     .str()] = std::move(picture);
+            for (auto& e : encodings_) pictures_.radiance[e.run->basis->name() + "/" + e.encoder] = std::move(e.picture);
+            result.pictures = std::move(pictures_);
+        }
+        return result;
+    }
+
+    [[nodiscard]] std::vector<Convergence> converge() const {
+        std::vector<ConvergenceTask> tasks;
+        for (const BasisRun& run : runs_)
+            if (run.basis->size() <= k_most_converging_size)
+                tasks.push_back({run.basis, run.encoders, {k_sequences.begin(), k_sequences.end()}});
+        return measure_convergence(environment_, tasks, {.seed = options_.seed});
+    }
+
+    [[nodiscard]] const Encoding& encoding(const CodecName& name) const {
+        return *std::find_if(encodings_.begin(), encodings_.end(), [&](const Encoding& e) {
+            return e.run->basis->name() == name.basis && e.encoder == name.encoder;
+        });
+    }
+    [[nodiscard]] const Reading& reading(const CodecName& name) const {
+        return *std::find_if(readings_.begin(), readings_.end(), [&](const Reading& r) {
+            return r.run->basis->name() == name.basis && r.evaluator == name.evaluator;
+        });
+    }
+
+    void step(double share) {
+        if (!progress_) return;
+        const std::scoped_lock lock(progress_mutex_);
+        done_ += share;
+        progress_(std::min(done_, 1.0));
+    }
+
+    /// Bases beyond this many coefficients are left out of the convergence plots: they take long and show the same.
+    static constexpr std::size_t k_most_converging_size = 16;
+
+    Image environment_;
+    ComparisonOptions options_;
+    const Progress& progress_;
+    std::mutex progress_mutex_;
+    double done_ = 0;
+    std::vector<BasisRun> runs_;
+    std::map<Domain, Stage> stages_;
+    std::vector<Encoding> encodings_;
+    std::vector<Reading> readings_;
+    ComparisonPictures pictures_;
+};
+
+}  // namespace
+
+Samples arriving_samples(const Image& environment, Domain domain, const ComparisonOptions& options) {
+    if (options.sequence)
+        return directed_samples(environment,
+                                uniform_directions(domain, *options.sequence, options.samples, options.seed), domain);
+    const Samples texels =
+        texel_samples(resize(environment, reduced_grid(lat_long(environment), options.most_texels)), domain);
+    std::mt19937 generator(options.seed);
+    return reordered(texels, shuffled_order(texels.size(), generator));
+}
+
+Result<Comparison> compare(const Image& environment, const std::vector<CodecName>& codecs,
+                           const ComparisonOptions& options, const Progress& progress) {
+    return Run(environment, options, progress)(codecs);
+}
+
+Colours lat_long_irradiance(SampleView samples, LatLong grid) {
+    Colours out(grid.size());
+    const Directions normals = grid.directions();
+    // A grid of even width holds the antipode of each of its texels: compute the upper half only.
+    const bool mirrored = grid.width % 2 == 0 && grid.height % 2 == 0 && (grid.size() / 2) % k_lanes == 0;
+    const std::size_t computed = mirrored ? grid.size() / 2 : grid.size();
+    constexpr std::size_t part = 512;
+    tbb::parallel_for(std::size_t{0}, (computed + part - 1) / part, [&](std::size_t i) {
+        const std::size_t begin = i * part, count = std::min(part, computed - begin);
+        irradiance_sum(samples, normals.view().part(begin, count), out.view().part(begin, count));
+    });
+    if (!mirrored) return out;
+
+    // The vector flux F = integral of L w, per channel.
+    std::array<std::array<double, 3>, 3> flux{};
+    for (std::size_t i = 0; i < samples.size; ++i)
+        for (std::size_t k = 0; k < 3; ++k)
+            for (std::size_t a = 0; a < 3; ++a)
+                flux[k][a] += static_cast<double>(samples.radiance().channel(k)[i]) * samples.solid_angles()[i] *
+                              samples.directions().channel(a)[i];
+    for (std::size_t i = 0; i < computed; ++i) {
+        const std::size_t x = i % grid.width, y = i / grid.width;
+        const std::size_t antipode = (grid.height - 1 - y) * grid.width + (x + grid.width / 2) % grid.width;
+        const Vec3 n = direction_at(normals, i);
+        for (std::size_t k = 0; k < 3; ++k)
+            out.channel(k)[antipode] = static_cast<float>(
+                out.channel(k)[i] - (flux[k][0] * n.x + flux[k][1] * n.y + flux[k][2] * n.z));
+    }
+    return out;
+}
+
+}  // namespace lobelia

@@ -1,0 +1,158 @@
+// JSON in and out.
+#include "report/json.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace lobelia {
+namespace {
+
+using nlohmann::json;
+
+constexpr const char* k_version = LOBELIA_VERSION;
+constexpr int k_report_format = 1;
+constexpr int k_coefficient_format = 1;
+
+json triple(Rgb c) { return {c.r, c.g, c.b}; }
+
+json coefficients(std::span<const Rgb> c) {
+    json list = json::array();
+    for (const Rgb& value : c) list.push_back(triple(value));
+    return list;
+}
+
+std::string_view domain_name(Domain domain) { return domain == Domain::sphere ? "sphere" : "hemisphere"; }
+
+json to_json(const Method& m, DirectionView judged) {
+    const std::size_t floats = 3 * m.c.size();
+    const Vec3 worst = direction_at(judged, m.irradiance_over_pi.worst_index);
+    return {{"name", m.name.str()},
+            {"basis", m.name.basis},
+            {"encoder", m.name.encoder},
+            {"evaluator", m.name.evaluator},
+            {"domain", domain_name(m.domain)},
+            {"floats", floats},
+            {"bytes", floats * sizeof(float)},
+            {"radiance_rms", m.radiance.rms},
+            {"radiance_rms_unweighted", m.radiance.rms_unweighted},
+            {"radiance_smape", m.radiance.smape},
+            {"radiance_relmse", m.radiance.relmse},
+            {"irradiance_over_pi_rms", m.irradiance_over_pi.rms},
+            {"irradiance_over_pi_rms_unweighted", m.irradiance_over_pi.rms_unweighted},
+            {"irradiance_smape", m.irradiance_over_pi.smape},
+            {"irradiance_relmse", m.irradiance_over_pi.relmse},
+            {"irradiance_worst",
+             {{"error", m.irradiance_over_pi.worst}, {"direction", {worst.x, worst.y, worst.z}}}},
+            {"negative_share", m.radiance.negative_share},
+            {"irradiance_negative_share", m.irradiance_over_pi.negative_share},
+            {"encode_ms", m.encode_ms},
+            {"evaluate_ns_per_normal", m.evaluate_ns_per_normal},
+            {"coefficients", coefficients(m.c)}};
+}
+
+json to_json(const Convergence& c) {
+    return {{"basis", c.basis},
+            {"encoder", c.encoder},
+            {"sequence", sequence_name(c.sequence)},
+            {"samples", c.samples},
+            {"excess", c.excess}};
+}
+
+}  // namespace
+
+json to_json(const Comparison& comparison, const EnvironmentInfo& environment) {
+    json methods = json::array();
+    std::map<Domain, Samples> judged;
+    const LatLong grid = comparison.recipe.empty() ? k_judging_grid : comparison.grid;
+    for (const Method& method : comparison.methods) {
+        if (!judged.contains(method.domain))
+            judged[method.domain] = texel_samples(Image(grid.width, grid.height), method.domain);
+        methods.push_back(to_json(method, judged[method.domain].view().directions()));
+    }
+    json report = {
+        {"lobelia", k_version},
+        {"format", k_report_format},
+        {"environment",
+         {{"name", environment.name},
+          {"source_width", environment.source.width},
+          {"source_height", environment.source.height},
+          {"width", comparison.grid.width},
+          {"height", comparison.grid.height},
+          {"mean_radiance", triple(comparison.mean_radiance)},
+          {"sanitized_texels", environment.sanitized_texels},
+          {"warnings", environment.warnings}}},
+        {"settings",
+         {{"recipe", comparison.recipe.empty() ? json(nullptr) : json(comparison.recipe)},
+          {"samples", comparison.samples},
+          {"sequence", comparison.sequence},
+          {"seed", comparison.seed},
+          {"reference", comparison.reference},
+          {"judged_width", grid.width},
+          {"judged_height", grid.height}}},
+        {"methods", std::move(methods)}};
+    if (!comparison.convergence.empty()) {
+        json curves = json::array();
+        for (const auto& curve : comparison.convergence) curves.push_back(to_json(curve));
+        report["convergence"] = std::move(curves);
+    }
+    return report;
+}
+
+PictureSet to_pictures(const Comparison& comparison) {
+    const auto encode = [](const Colours& colours, LatLong grid) {
+        return encode_picture(colours.view(), grid.width, grid.height);
+    };
+    PictureSet set;
+    const LatLong irradiance_grid = comparison.recipe.empty() ? k_irradiance_picture : comparison.grid;
+    for (const auto& [domain, reference] : comparison.pictures.references)
+        set.references[std::string(domain_name(domain))] = {encode(reference.radiance, k_judging_grid),
+                                                            encode(reference.irradiance_over_pi, irradiance_grid)};
+    for (const auto& [name, picture] : comparison.pictures.radiance)
+        set.radiance[name] = encode(picture, k_radiance_picture);
+    for (const auto& [name, picture] : comparison.pictures.irradiance_over_pi)
+        set.irradiance_over_pi[name] = encode(picture, k_irradiance_picture);
+    return set;
+}
+
+json to_json(const CoefficientFile& file) {
+    return {{"lobelia_coefficients", k_coefficient_format},
+            {"codec", file.codec.str()},
+            {"coefficients", coefficients(file.c)}};
+}
+
+Result<CoefficientFile> coefficients_from_json(std::string_view text, const std::string& name) {
+    const json content = json::parse(text, nullptr, false);
+    if (content.is_discarded() || !content.is_object()) return Error{name + ": not a JSON object of coefficients"};
+    const auto member = [&](const char* key) { return content.contains(key) ? content[key] : json(); };
+
+    const json format = member("lobelia_coefficients");
+    if (!format.is_number_integer())
+        return Error{name + ": no \"lobelia_coefficients\" version in it; is it from `lobelia encode`?"};
+    if (format.get<long long>() != k_coefficient_format)
+        return Error{name + ": version " + format.dump() + ", but this program reads version " +
+                     std::to_string(k_coefficient_format)};
+    if (!member("codec").is_string()) return Error{name + ": no \"codec\" in it"};
+    const auto codec = make_codec(member("codec").get<std::string>());
+    if (!codec) return Error{name + ": " + codec.error().message};
+
+    const json list = member("coefficients");
+    const std::size_t expected = codec->basis().size();
+    if (!list.is_array() || list.size() != expected)
+        return Error{name + ": " + codec->name().basis + " has " + std::to_string(expected) +
+                     " coefficients, but the file holds " + std::to_string(list.is_array() ? list.size() : 0)};
+    CoefficientFile file{codec->name(), {}};
+    for (std::size_t i = 0; i < expected; ++i) {
+        std::array<float, 3> rgb{};
+        bool good = list[i].is_array() && list[i].size() == 3;
+        for (std::size_t k = 0; good && k < 3; ++k) {
+            good = list[i][k].is_number();
+            if (good) rgb[k] = static_cast<float>(list[i][k].get<double>());
+            good = good && std::isfinite(rgb[k]);
+        }
+        if (!good) return Error{name + ": coefficient " + std::to_string(i) + " is not three finite numbers"};
+        file.c.push_back({rgb[0], rgb[1], rgb[2]});
+    }
+    return file;
+}
+
+}  // namespace lobelia

@@ -1,0 +1,163 @@
+// The published comparisons: their samples, order, methods, reference and sums.
+#include "report/recipe.h"
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include <chrono>
+
+#include "lobelia/encode/sequential.h"
+
+namespace lobelia {
+namespace {
+
+constexpr std::size_t k_sample_count = 20000;
+constexpr std::size_t k_reference_draws = 5000;
+constexpr auto k_over_pi = static_cast<float>(1 / k_pi);
+
+/// A recipe names its methods, as a table does; this list and codecs.cpp are the only places that do.
+constexpr const char* k_basis = "sg12";
+constexpr const char* k_evaluator = "hill";
+
+struct RecipeMethod {
+    const char* name;
+    enum Order { in_order, shuffled } order;
+};
+const std::vector<RecipeMethod>& methods_of(Recipe recipe) {
+    static const std::vector<RecipeMethod> published = {{"projection", RecipeMethod::in_order},
+                                                        {"least-squares", RecipeMethod::in_order},
+                                                        {"running-average", RecipeMethod::shuffled},
+                                                        {"nnls", RecipeMethod::in_order},
+                                                        {"running-average-nn", RecipeMethod::shuffled}};
+    static const std::vector<RecipeMethod> updated = {{"projection", RecipeMethod::in_order},
+                                                      {"least-squares", RecipeMethod::in_order},
+                                                      {"progressive", RecipeMethod::in_order},
+                                                      {"nnls", RecipeMethod::in_order},
+                                                      {"progressive-nn", RecipeMethod::in_order}};
+    return recipe == Recipe::published ? published : updated;
+}
+
+std::shared_ptr<const Encoder> encoder_of(const std::string& name, const std::shared_ptr<const Basis>& basis) {
+    // The updated post divides by the running mean of B_i^2, not by the clamped one.
+    const ProgressiveOptions sampled{.denominator = ProgressiveOptions::Denominator::sampled};
+    if (name == "progressive") return make_progressive(basis, Sign::any, sampled);
+    if (name == "progressive-nn") return make_progressive(basis, Sign::non_negative, sampled);
+    return make_encoder(name, basis).value();
+}
+
+/// E / pi at every texel's direction from one and the same set of draws by luminance times solid angle.
+Colours noisy_irradiance_over_pi(const Image& environment) {
+    const LatLong grid = lat_long(environment);
+    const std::vector<float> solid_angles = grid.solid_angles();
+    std::vector<float> weights(grid.size());
+    for (std::size_t i = 0; i < grid.size(); ++i) weights[i] = luminance(environment.pixels[i]) * solid_angles[i];
+    float sum = 0;
+    for (float w : weights) sum += w;
+    Colours out(grid.size());
+    if (!(sum > 0)) return out;
+
+    // Every texel restarts the generator with seed 0, so that all of them draw the same texels.
+    const AliasTable table(weights);
+    std::mt19937 generator(0);
+    Samples draws(k_reference_draws);
+    for (std::size_t j = 0; j < k_reference_draws; ++j) {
+        const std::size_t column = generator() % grid.size();
+        const std::size_t i = table.choose(column, static_cast<double>(generator()) * 0x1p-32);
+        const double share = solid_angles[i] * (sum / static_cast<double>(weights[i])) / k_reference_draws;
+        draws.set(j, {grid.direction(i), environment.pixels[i], static_cast<float>(share)});
+    }
+    out = lat_long_irradiance(draws, grid);
+    for (std::size_t k = 0; k < 3; ++k)
+        for (std::size_t i = 0; i < out.size(); ++i) out.channel(k)[i] *= k_over_pi;
+    return out;
+}
+
+/// sqrt(mean (a - r)^2) over texels and channels, summed in order in float32.
+double float_rms(ColourView a, ColourView reference) {
+    float sum = 0;
+    for (std::size_t i = 0; i < a.size; ++i)
+        for (std::size_t k = 0; k < 3; ++k) {
+            const float d = a.channel(k)[i] - reference.channel(k)[i];
+            sum += d * d;
+        }
+    return std::sqrt(static_cast<double>(sum) / (3 * static_cast<double>(a.size)));
+}
+
+Errors recipe_errors(ColourView a, ColourView reference, std::span<const float> weights) {
+    Errors e = errors(a, reference, weights);
+    e.rms_unweighted = float_rms(a, reference);
+    return e;
+}
+
+Colours irradiance_over_pi(const Codec& codec, std::span<const Rgb> c, DirectionView normals) {
+    Colours out(normals.size);
+    codec.irradiance(c, normals, out);
+    for (std::size_t k = 0; k < 3; ++k)
+        for (std::size_t i = 0; i < out.size(); ++i) out.channel(k)[i] *= k_over_pi;
+    return out;
+}
+
+}  // namespace
+
+std::string_view recipe_name(Recipe recipe) { return recipe == Recipe::published ? "published" : "updated"; }
+
+Comparison run_recipe(Recipe recipe, const Image& environment, const ComparisonOptions& options,
+                      const Progress& progress) {
+    using Clock = std::chrono::steady_clock;
+    const LatLong grid = lat_long(environment);
+    const auto basis = make_basis(k_basis).value();
+    const auto evaluator = make_evaluator(k_evaluator, *basis).value();
+    const Samples texels = texel_samples(environment);
+    const SampleView texel_view = texels;
+    const std::span<const float> weights{texel_view.solid_angles(), texel_view.size};
+
+    Comparison result;
+    result.recipe = recipe_name(recipe);
+    result.reference = "5000 draws by luminance and solid angle, the same for every normal";
+    result.sequence = sequence_name(recipe == Recipe::published ? Sequence::hammersley : Sequence::halton);
+    result.samples = k_sample_count;
+    result.seed = std::mt19937::default_seed;
+    result.grid = grid;
+    result.mean_radiance = mean_radiance(environment);
+    const Colours reference = noisy_irradiance_over_pi(environment);
+    const Samples ordered = directed_samples(
+        environment, uniform_directions(Domain::sphere, *sequence_from_name(result.sequence), k_sample_count, 0),
+        Domain::sphere);
+    if (options.pictures)
+        result.pictures.references[Domain::sphere] = {radiance_of(resize(environment, k_judging_grid)), reference};
+
+    // Both shuffled methods draw on one generator, one after the other.
+    std::mt19937 generator;
+    const auto& methods = methods_of(recipe);
+    for (std::size_t i = 0; i < methods.size(); ++i) {
+        const CodecName name{k_basis, methods[i].name, k_evaluator};
+        const Codec codec(name, encoder_of(name.encoder, basis), evaluator);
+        const Samples samples = methods[i].order == RecipeMethod::shuffled
+                                    ? reordered(ordered, shuffled_order(k_sample_count, generator))
+                                    : ordered;
+        Method method{name, Domain::sphere, {}, {}, {}, 0, 0};
+        const auto start = Clock::now();
+        method.c = codec.encode(samples);
+        method.encode_ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+
+        Colours radiance(grid.size());
+        codec.radiance(method.c, texel_view.directions(), radiance);
+        method.radiance = recipe_errors(radiance, texel_view.radiance(), weights);
+        const auto read_start = Clock::now();
+        const Colours irradiance = irradiance_over_pi(codec, method.c, texel_view.directions());
+        method.evaluate_ns_per_normal = std::chrono::duration<double, std::nano>(Clock::now() - read_start).count() /
+                                        static_cast<double>(grid.size());
+        method.irradiance_over_pi = recipe_errors(irradiance, reference, weights);
+        if (options.pictures) {
+            Colours& picture = result.pictures.radiance[name.basis + "/" + name.encoder];
+            picture = Colours(k_radiance_picture.size());
+            codec.radiance(method.c, k_radiance_picture.directions(), picture);
+            result.pictures.irradiance_over_pi[name.str()] =
+                irradiance_over_pi(codec, method.c, k_irradiance_picture.directions());
+        }
+        result.methods.push_back(std::move(method));
+        if (progress) progress(static_cast<double>(i + 1) / static_cast<double>(methods.size()));
+    }
+    return result;
+}
+
+}  // namespace lobelia
