@@ -29,6 +29,11 @@ const family_of = (() => {
     return ({ basis }) => (bases_of_stem.get(stem(basis)).size > 1 && stem(basis) ? stem(basis) : basis);
 })();
 
+/// The first part of the name that tells methods apart.
+const main_axis =
+    ["basis", "encoder", "evaluator"].find((axis) => methods.some((method) => method[axis] !== methods[0][axis])) ??
+    "basis";
+
 /// A figure for ordering: what is missing or not a number comes last.
 const figure_or_last = (method, key) => (Number.isFinite(method[key]) ? method[key] : Infinity);
 

@@ -90,12 +90,12 @@ function small_scale({ quantity, form }) {
 
 function detail_figures(method) {
     const head = ["", "Radiance L", "Irradiance E/π"].map((text) => element("th", { scope: "col" }, text));
-    const row = (name, radiance, irradiance) =>
+    const row = (name, radiance, irradiance, as_text = figure_text) =>
         element(
             "tr",
             element("th", { scope: "row" }, name),
-            element("td", figure_text(method[radiance])),
-            element("td", figure_text(method[irradiance])),
+            element("td", as_text(method[radiance])),
+            element("td", as_text(method[irradiance])),
         );
     const errors = element(
         "table.figures-table",
@@ -107,6 +107,7 @@ function detail_figures(method) {
             row("RMS error, unweighted", "radiance_rms_unweighted", "irradiance_over_pi_rms_unweighted"),
             row("sMAPE", "radiance_smape", "irradiance_smape"),
             row("relMSE", "radiance_relmse", "irradiance_relmse"),
+            row("Negative, % of directions", "negative_share", "irradiance_negative_share", share_text),
         ),
     );
     const worst = method.irradiance_worst;
@@ -117,7 +118,6 @@ function detail_figures(method) {
         ...fact("Size", `${count_text(method.floats)} floats, ${count_text(method.bytes)} bytes`),
         ...fact("Largest error of E/π", figure_text(worst?.error)),
         ...fact("… towards", worst?.direction ? vector_text(worst.direction) : "–"),
-        ...fact("Negative radiance", `${share_text(method.negative_share)} % of directions`),
         ...fact("Encoding", `${figure_text(method.encode_ms)} ms`),
         ...fact("Evaluation", `${figure_text(method.evaluate_ns_per_normal)} ns for a normal`),
     );

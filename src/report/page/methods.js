@@ -41,7 +41,7 @@ const method_table = {
     sort: methods.length > 12 ? "irradiance_over_pi_rms" : null, // a short list keeps its order
     descending: false,
     filter: { basis: "", encoder: "", evaluator: "", domain: "", text: "" },
-    extra: false,
+    extra: Boolean(report.settings?.recipe), // recipes were published with it
     rows: new Map(), // method -> its row
 };
 
@@ -76,6 +76,7 @@ function build_filters() {
     });
     const extra = element("input", {
         type: "checkbox",
+        checked: method_table.extra,
         onchange: (event) => {
             method_table.extra = event.target.checked;
             build_method_table();

@@ -181,9 +181,10 @@ function method_heading(method) {
         button(
             "name",
             { title: "Details", onclick: () => open_detail(method) },
-            element("strong", method.basis),
-            element("span", `${method.encoder} `),
-            element("span", method.evaluator),
+            element("strong", method[main_axis]),
+            ...["basis", "encoder", "evaluator"]
+                .filter((axis) => axis !== main_axis)
+                .map((axis) => element("span", `${method[axis]} `)),
         ),
         button(
             "remove.quiet",

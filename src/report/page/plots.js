@@ -28,6 +28,7 @@ function build_plots() {
     plots.made = [];
     const cards = [build_size_plot(), build_convergence_plot()].filter(Boolean);
     root.replaceChildren(...cards.map(({ card }) => card));
+    by_id("plots-section").hidden = cards.length === 0;
     // A chart measures its place, so it is made once that is on the page.
     for (const { make } of cards) make();
 }
@@ -54,7 +55,7 @@ function pareto_front(points) {
     return front;
 }
 
-/// Writes the basis beside each point of the front, where there is room.
+/// Names each point of the front, where there is room.
 const front_labels = {
     id: "front-labels",
     afterDatasetsDraw(chart) {
@@ -66,7 +67,7 @@ const front_labels = {
         ctx.font = "12px system-ui, sans-serif";
         ctx.fillStyle = css_colour("--text");
         chart.getDatasetMeta(front).data.forEach((point, i) => {
-            const text = chart.data.datasets[front].data[i].method.basis;
+            const text = chart.data.datasets[front].data[i].method[main_axis];
             const width = ctx.measureText(text).width;
             const height = 14;
             const fits_left = point.x - width - 8 >= chartArea.left;
@@ -141,6 +142,7 @@ function size_options(points) {
 }
 
 function build_size_plot() {
+    if (new Set(methods.map(({ bytes }) => bytes)).size < 2) return null;
     const controls = [
         plot_select("Error", "error", plot_errors),
         plot_select("Colour by", "colour", as_options(Object.keys(plot_groups))),

@@ -21,8 +21,7 @@ function build_header() {
         ["Mean radiance", environment.mean_radiance && environment.mean_radiance.map(figure_text).join("  ")],
         ["Methods", String(methods.length)],
     ];
-    for (const [key, value] of Object.entries(settings))
-        if (value !== null && key !== "recipe") facts.push([key.replaceAll("_", " "), setting_text(value)]);
+    facts.push(...setting_facts(settings));
     by_id("summary").append(
         ...facts
             .filter(([, value]) => value)
@@ -32,6 +31,19 @@ function build_header() {
     const warnings = environment.warnings ?? [];
     by_id("warnings").hidden = warnings.length === 0;
     by_id("warnings").append(...warnings.map((text) => element("li", text)));
+}
+
+/// All settings but the recipe and what is null; a width and its height become one.
+function setting_facts(settings) {
+    const facts = [];
+    for (const [key, value] of Object.entries(settings)) {
+        const stem = key.replace(/_(width|height)$/, "");
+        const is_size = `${stem}_width` in settings && `${stem}_height` in settings;
+        const text = is_size ? `${settings[`${stem}_width`]} × ${settings[`${stem}_height`]}` : setting_text(value);
+        if (value !== null && key !== "recipe" && !(is_size && key.endsWith("_height")))
+            facts.push([(is_size ? `${stem} at` : key).replaceAll("_", " "), text]);
+    }
+    return facts;
 }
 
 function setting_text(value) {
