@@ -1,7 +1,7 @@
 // From linear light to pixels: exposure, tone curve, sRGB; and the colour scale of errors.
 "use strict";
 
-/// How all pictures are shown. `exposure` is in EV above the automatic one, `turn` in degrees.
+/// How all pictures are shown. `exposure` is in EV above the automatic one, `turn` in degrees from it.
 const view = {
     exposure: 0,
     tone: "clamp",

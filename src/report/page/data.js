@@ -86,10 +86,11 @@ function decode(stored) {
     return { width: stored.width, height: stored.height, channels: 3, data };
 }
 
-const made_pictures = new Map();
+/// What was made under a key, or else what `make` makes now.
+const made = new Map();
 function made_once(key, make) {
-    if (!made_pictures.has(key)) made_pictures.set(key, make());
-    return made_pictures.get(key);
+    if (!made.has(key)) made.set(key, make());
+    return made.get(key);
 }
 
 function reference_picture(domain, quantity) {

@@ -128,8 +128,23 @@ function sample_picture({ width, height, channels, data }, u, v, out) {
     }
 }
 
-/// A white diffuse sphere lit by E/pi in `picture`, or the error over it; `judged(u)` tells what is not hatched.
-function paint_sphere(canvas, picture, quantity, judged) {
+/// z > 0 is the outer quarters of a latitude-longitude picture.
+const judged_positions = (domain) => (domain === "hemisphere" ? (u) => u < 0.25 || u > 0.75 : () => true);
+
+/// How far spheres of a domain are turned at 0 degrees, as a share of a full turn: the brightest side of the reference
+/// comes half left, so that the shading shows; a hemisphere shows what is judged, seen along -z.
+function automatic_turn(domain) {
+    const picture = domain === "hemisphere" ? null : reference_picture(domain, "irradiance");
+    if (!picture) return 0;
+    const equator = Math.floor(picture.height / 2) * picture.width;
+    const light = (x) => luminance(picture.data.subarray((equator + x) * 3, (equator + x) * 3 + 3));
+    let brightest = 0;
+    for (let x = 1; x < picture.width; ++x) if (light(x) > light(brightest)) brightest = x;
+    return (brightest + 0.5) / picture.width - 1 / 8;
+}
+
+/// A white diffuse sphere lit by E/pi in `picture`, or the error over it; what is not judged is hatched.
+function paint_sphere(canvas, picture, quantity, domain) {
     const size = Math.max(16, Math.min(400, Math.round(canvas.clientWidth * devicePixelRatio)));
     canvas.width = canvas.height = size;
     const context = canvas.getContext("2d");
@@ -138,7 +153,8 @@ function paint_sphere(canvas, picture, quantity, judged) {
     const out = image.data;
     const write = texel_writer(picture, quantity);
     const value = [0, 0, 0];
-    const turn = view.turn / 360;
+    const turn = view.turn / 360 + made_once(`turn ${domain}`, () => automatic_turn(domain));
+    const judged = judged_positions(domain);
     for (let i = 0; i < size * size; ++i) {
         if (cover[i] === 0) continue;
         const turned = u[i] + turn - Math.floor(u[i] + turn);
@@ -155,6 +171,3 @@ function paint_sphere(canvas, picture, quantity, judged) {
     }
     context.putImageData(image, 0, 0);
 }
-
-/// z > 0 is the outer quarters of a latitude-longitude picture.
-const judged_positions = (domain) => (domain === "hemisphere" ? (u) => u < 0.25 || u > 0.75 : () => true);

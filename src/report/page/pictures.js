@@ -27,7 +27,7 @@ function sphere_frame(get, { domain, quantity, label }) {
     painted(canvas, () => {
         const picture = get();
         frame.classList.toggle("missing", !picture);
-        if (picture) paint_sphere(canvas, picture, quantity, judged_positions(domain));
+        if (picture) paint_sphere(canvas, picture, quantity, domain);
     });
     canvas.addEventListener("pointerdown", (event) => {
         canvas.setPointerCapture(event.pointerId);
