@@ -22,4 +22,21 @@ void evaluate(const FunctionSet& functions, std::span<const Rgb> c, DirectionVie
     evaluate_many(functions, std::span(&c, 1), directions, std::span(&out, 1));
 }
 
+void irradiance(const Evaluator& evaluator, std::span<const Rgb> c, DirectionView normals, MutableColourView out) {
+    evaluator.signed_irradiance(c, normals, out);
+    if (evaluator.negative() == Negative::clamped) clamp_negative(out);
+}
+
+void signed_irradiance_many(const Evaluator& evaluator, std::span<const std::span<const Rgb>> c, DirectionView normals,
+                            std::span<const MutableColourView> out) {
+    if (evaluator.weights()) return evaluate_many(*evaluator.weights(), c, normals, out);
+    for (std::size_t i = 0; i < c.size(); ++i) evaluator.signed_irradiance(c[i], normals, out[i]);
+}
+
+void clamp_negative(MutableColourView colours) {
+    for (std::size_t k = 0; k < 3; ++k)
+        for (std::size_t i = 0; i < colours.size; ++i)
+            colours.channel(k)[i] = std::max(colours.channel(k)[i], 0.0f);
+}
+
 }  // namespace lobelia

@@ -37,13 +37,19 @@ struct Accuracy {
     std::string error;  ///< the largest error there
 };
 
+/// What becomes of a radiance or irradiance below 0, which no light has but a fit may: it stays, or is read as 0.
+enum class Negative { kept, clamped };
+
 /// How coefficients are read as irradiance E(n) [W/m^2] at a unit normal n.
 class Evaluator {
   public:
     virtual ~Evaluator() = default;
     [[nodiscard]] virtual std::string name() const = 0;
     [[nodiscard]] virtual Accuracy accuracy() const = 0;
-    virtual void irradiance(std::span<const Rgb> c, DirectionView normals, MutableColourView out) const = 0;
+    /// E as the coefficients give it; what is below 0 is still there.
+    virtual void signed_irradiance(std::span<const Rgb> c, DirectionView normals, MutableColourView out) const = 0;
+    /// What this reading does with negative values of L and E.
+    [[nodiscard]] virtual Negative negative() const { return Negative::kept; }
     /// The weights e_i(n) with E = sum c_i e_i where the evaluator is linear in the coefficients; else null.
     [[nodiscard]] virtual const FunctionSet* weights() const { return nullptr; }
 };
@@ -51,11 +57,21 @@ class Evaluator {
 /// An evaluator that is a vector of weights at a normal.
 class LinearEvaluator : public Evaluator, public FunctionSet {
   public:
-    void irradiance(std::span<const Rgb> c, DirectionView normals, MutableColourView out) const final {
+    void signed_irradiance(std::span<const Rgb> c, DirectionView normals, MutableColourView out) const final {
         evaluate(*this, c, normals, out);
     }
     [[nodiscard]] const FunctionSet* weights() const final { return this; }
 };
+
+/// Irradiance as the evaluator means it: signed, then clamped where it clamps.
+void irradiance(const Evaluator& evaluator, std::span<const Rgb> c, DirectionView normals, MutableColourView out);
+
+/// Signed irradiance of many coefficient vectors; a linear evaluator's weights are computed only once per normal.
+void signed_irradiance_many(const Evaluator& evaluator, std::span<const std::span<const Rgb>> c, DirectionView normals,
+                            std::span<const MutableColourView> out);
+
+/// Every channel below 0 becomes 0.
+void clamp_negative(MutableColourView colours);
 
 /// A symmetric K x K matrix, row by row, and so on: small dense tables in double precision.
 using Matrix = std::vector<double>;

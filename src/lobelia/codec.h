@@ -28,7 +28,7 @@ class Codec {
 
     /// Coefficients of all samples at once.
     [[nodiscard]] std::vector<Rgb> encode(SampleView samples) const;
-    /// L(w) [W/(m^2 sr)] at each direction.
+    /// L(w) [W/(m^2 sr)] at each direction; clamped at 0 where the evaluator clamps.
     void radiance(std::span<const Rgb> c, DirectionView directions, MutableColourView out) const;
     /// E(n) [W/m^2] at each normal.
     void irradiance(std::span<const Rgb> c, DirectionView normals, MutableColourView out) const;

@@ -183,10 +183,11 @@ std::vector<Rgb> Codec::encode(SampleView samples) const {
 
 void Codec::radiance(std::span<const Rgb> c, DirectionView directions, MutableColourView out) const {
     evaluate(basis(), c, directions, out);
+    if (evaluator_->negative() == Negative::clamped) clamp_negative(out);
 }
 
 void Codec::irradiance(std::span<const Rgb> c, DirectionView normals, MutableColourView out) const {
-    evaluator_->irradiance(c, normals, out);
+    lobelia::irradiance(*evaluator_, c, normals, out);
 }
 
 }  // namespace lobelia

@@ -204,13 +204,13 @@ void RunningAverage(const Sequential& s, ColourView radiance, const float* steps
     });
 }
 
-void Progressive(const Sequential& s, ColourView radiance, const float* steps) {
+void Progressive(const Sequential& s, ColourView radiance, const float* steps, const float* mean_steps) {
     const D d;
-    const V lowest = hn::Set(d, s.lowest), mean_rate = hn::Set(d, s.mean_rate);
+    const V lowest = hn::Set(d, s.lowest);
     for_each_sample(s, radiance, [&](std::size_t j, std::size_t l, V w, const V* delta) HWY_ATTR {
         const V a = hn::Set(d, steps[j]);
         const V old_mean = hn::LoadU(d, s.per_lobe + l);
-        const V mean = hn::MulAdd(hn::Sub(hn::Mul(w, w), old_mean), hn::Mul(a, mean_rate), old_mean);
+        const V mean = hn::MulAdd(hn::Sub(hn::Mul(w, w), old_mean), hn::Set(d, mean_steps[j]), old_mean);
         hn::StoreU(mean, d, s.per_lobe + l);
         const V denominator = hn::Max(mean, hn::LoadU(d, s.floor + l));
         const V gain = hn::IfThenElseZero(hn::Gt(denominator, hn::Zero(d)), hn::Div(w, denominator));
@@ -264,8 +264,8 @@ void transform_rows(const float* rows, std::size_t count, const float* matrix, s
 void running_average(const Sequential& s, ColourView radiance, const float* steps) {
     HWY_DYNAMIC_DISPATCH(RunningAverage)(s, radiance, steps);
 }
-void progressive(const Sequential& s, ColourView radiance, const float* steps) {
-    HWY_DYNAMIC_DISPATCH(Progressive)(s, radiance, steps);
+void progressive(const Sequential& s, ColourView radiance, const float* steps, const float* mean_steps) {
+    HWY_DYNAMIC_DISPATCH(Progressive)(s, radiance, steps, mean_steps);
 }
 void matrix_gain(const Sequential& s, ColourView radiance, const float* steps) {
     HWY_DYNAMIC_DISPATCH(MatrixGain)(s, radiance, steps);

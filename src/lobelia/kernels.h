@@ -33,14 +33,13 @@ struct Sequential {
     const float* gains = nullptr;    ///< matrix gain: G^-1 values, laid out as `values`
     float* per_lobe = nullptr;       ///< running average: sum of weights; progressive: running mean of B_i^2
     const float* floor = nullptr;    ///< progressive: least denominator S_i, positive past the last lobe
-    float mean_rate = 1;             ///< progressive: 0 keeps the running mean as it is
     float lowest = 0;                ///< coefficients are clamped to at least this
 };
 
 /// Steps: the share of each sample, step[j]. b += step value (v - est) / per_lobe after per_lobe += step value.
 void running_average(const Sequential& s, ColourView radiance, const float* steps);
-/// m += (w^2 - m) step mean_rate; b += ((v - est + b w) w / max(m, floor) - b) step.
-void progressive(const Sequential& s, ColourView radiance, const float* steps);
+/// m += (w^2 - m) mean_step; b += ((v - est + b w) w / max(m, floor) - b) step.
+void progressive(const Sequential& s, ColourView radiance, const float* steps, const float* mean_steps);
 /// b += step gain (v - est).
 void matrix_gain(const Sequential& s, ColourView radiance, const float* steps);
 

@@ -3,6 +3,15 @@
 
 namespace lobelia {
 
+double negative_share(ColourView a, std::span<const float> weights) {
+    double negative = 0, total = 0;
+    for (std::size_t i = 0; i < a.size; ++i) {
+        total += weights[i];
+        if (std::min({a.channel(0)[i], a.channel(1)[i], a.channel(2)[i]}) < 0) negative += weights[i];
+    }
+    return total > 0 ? negative / total : 0;
+}
+
 Errors errors(ColourView a, ColourView reference, std::span<const float> weights) {
     assert(a.size == reference.size && a.size == weights.size());
     Errors e;
@@ -10,21 +19,18 @@ Errors errors(ColourView a, ColourView reference, std::span<const float> weights
     for (std::size_t i = 0; i < a.size; ++i) {
         const double w = weights[i];
         double squared = 0, relative = 0, symmetric = 0;
-        bool negative = false;
         for (std::size_t k = 0; k < 3; ++k) {
             const double x = a.channel(k)[i], r = reference.channel(k)[i], d = x - r;
             const double magnitude = std::abs(x) + std::abs(r);
             squared += d * d;
             relative += d * d / (r * r + 0.01);
             symmetric += magnitude > 0 ? std::abs(d) / magnitude : 0;
-            negative = negative || x < 0;
         }
         total += w;
         e.rms += w * squared;
         e.rms_unweighted += squared;
         e.smape += w * symmetric;
         e.relmse += w * relative;
-        e.negative_share += negative ? w : 0;
         if (squared > worst) {
             worst = squared;
             e.worst_index = i;
@@ -35,7 +41,7 @@ Errors errors(ColourView a, ColourView reference, std::span<const float> weights
     e.rms_unweighted = std::sqrt(e.rms_unweighted / (3 * static_cast<double>(a.size)));
     e.smape /= 3 * total;
     e.relmse /= 3 * total;
-    e.negative_share /= total;
+    e.negative_share = negative_share(a, weights);
     e.worst = std::sqrt(worst / 3);
     return e;
 }

@@ -13,10 +13,13 @@ struct Errors {
     double rms_unweighted = 0;  ///< the same with every entry counted once
     double smape = 0;           ///< weighted mean of |a - r| / (|a| + |r|), 0 where both are 0
     double relmse = 0;          ///< weighted mean of (a - r)^2 / (r^2 + 0.01)
-    double negative_share = 0;  ///< weighted share of entries with a channel below 0
+    double negative_share = 0;  ///< see negative_share()
     double worst = 0;           ///< largest root mean square over channels of one entry, and which entry it is
     std::size_t worst_index = 0;
 };
+
+/// Weighted share of entries with a channel below 0.
+[[nodiscard]] double negative_share(ColourView a, std::span<const float> weights);
 
 /// Precondition: all three of one size, weights >= 0.
 [[nodiscard]] Errors errors(ColourView a, ColourView reference, std::span<const float> weights);

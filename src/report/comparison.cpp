@@ -54,20 +54,21 @@ struct BasisRun {
 /// One (basis, encoder): coefficients and radiance.
 struct Encoding {
     const BasisRun* run = nullptr;
-    std::string encoder;
-    std::vector<Rgb> c;
+    std::string encoder = {};
+    std::vector<Rgb> c = {};
     double milliseconds = 0;
-    Errors radiance;
-    Colours picture;
+    std::map<Negative, Errors> radiance = {};
+    Colours picture = {};
 };
 
 /// One (basis, evaluator): irradiance of all the basis's encodings at once.
 struct Reading {
     const BasisRun* run = nullptr;
-    std::string evaluator;
+    std::string evaluator = {};
+    Negative negative = Negative::kept;
     double nanoseconds = 0;
-    std::map<std::string, Errors> irradiance;  ///< by encoder
-    std::map<std::string, Colours> pictures;
+    std::map<std::string, Errors> irradiance = {};  ///< by encoder
+    std::map<std::string, Colours> pictures = {};
 };
 
 /// The whole comparison as it runs.
@@ -106,8 +107,8 @@ class Run {
             add_once(found->evaluators, name.evaluator);
         }
         for (const BasisRun& run : runs_) {
-            for (const auto& encoder : run.encoders) encodings_.push_back({&run, encoder, {}, 0, {}, {}});
-            for (const auto& evaluator : run.evaluators) readings_.push_back({&run, evaluator, 0, {}, {}});
+            for (const auto& encoder : run.encoders) encodings_.push_back({.run = &run, .encoder = encoder});
+            for (const auto& evaluator : run.evaluators) readings_.push_back({.run = &run, .evaluator = evaluator});
         }
         return Done{};
     }
@@ -149,7 +150,10 @@ class Run {
             const SampleView judged = stage.judged;
             Colours radiance(judged.size);
             evaluate(*e.run->basis, e.c, judged.directions(), radiance);
-            e.radiance = errors(radiance, judged.radiance(), {judged.solid_angles(), judged.size});
+            const std::span weights{judged.solid_angles(), judged.size};
+            e.radiance[Negative::kept] = errors(radiance, judged.radiance(), weights);
+            clamp_negative(radiance);
+            e.radiance[Negative::clamped] = errors(radiance, judged.radiance(), weights);
             if (options_.pictures) {
                 e.picture = Colours(picture_directions.size());
                 evaluate(*e.run->basis, e.c, picture_directions, e.picture);
@@ -167,18 +171,24 @@ class Run {
 
     void read(Reading& reading) const {
         const auto evaluator = make_evaluator(reading.evaluator, *reading.run->basis).value();
+        reading.negative = evaluator->negative();
         const Stage& stage = stages_.at(reading.run->basis->domain());
         const SampleView judged = stage.judged;
         std::vector<const Encoding*> encodings;
         for (const Encoding& e : encodings_)
             if (e.run == reading.run) encodings.push_back(&e);
 
-        auto outputs = irradiance_over_pi(*evaluator, encodings, judged.directions());
-        for (std::size_t k = 0; k < encodings.size(); ++k)
-            reading.irradiance[encodings[k]->encoder] =
-                errors(outputs[k], stage.reference_irradiance_over_pi, {judged.solid_angles(), judged.size});
+        auto outputs = signed_irradiance_over_pi(*evaluator, encodings, judged.directions());
+        for (std::size_t k = 0; k < encodings.size(); ++k) {
+            const std::span weights{judged.solid_angles(), judged.size};
+            const double negative = negative_share(outputs[k], weights);
+            if (reading.negative == Negative::clamped) clamp_negative(outputs[k]);
+            Errors& e = reading.irradiance[encodings[k]->encoder];
+            e = errors(outputs[k], stage.reference_irradiance_over_pi, weights);
+            e.negative_share = negative;
+        }
         if (options_.pictures) {
-            auto pictures = irradiance_over_pi(*evaluator, encodings, k_irradiance_picture.directions());
+            auto pictures = signed_irradiance_over_pi(*evaluator, encodings, k_irradiance_picture.directions());
             for (std::size_t k = 0; k < encodings.size(); ++k)
                 reading.pictures[encodings[k]->encoder] = std::move(pictures[k]);
         }
@@ -186,14 +196,14 @@ class Run {
         // Time one set of coefficients alone, on enough normals to drown the clock.
         const DirectionView timed = judged.directions().part(0, std::min<std::size_t>(judged.size, 4096));
         const auto start = Clock::now();
-        evaluator->irradiance(encodings[0]->c, timed, outputs[0].view().part(0, timed.size));
+        irradiance(*evaluator, encodings[0]->c, timed, outputs[0].view().part(0, timed.size));
         reading.nanoseconds = 1e6 * milliseconds_since(start) / static_cast<double>(timed.size);
     }
 
-    /// E / pi of several encodings of one basis; a linear evaluator's weights are computed once for all.
-    static std::vector<Colours> irradiance_over_pi(const Evaluator& evaluator,
-                                                   const std::vector<const Encoding*>& encodings,
-                                                   DirectionView normals) {
+    /// E / pi of several encodings of one basis, what is below 0 kept; a linear evaluator's weights are computed once for all.
+    static std::vector<Colours> signed_irradiance_over_pi(const Evaluator& evaluator,
+                                                          const std::vector<const Encoding*>& encodings,
+                                                          DirectionView normals) {
         std::vector<Colours> outputs(encodings.size(), Colours(normals.size));
         std::vector<std::span<const Rgb>> c;
         std::vector<MutableColourView> views;
@@ -201,10 +211,7 @@ class Run {
             c.emplace_back(encodings[k]->c);
             views.push_back(outputs[k].view());
         }
-        if (evaluator.weights())
-            evaluate_many(*evaluator.weights(), c, normals, views);
-        else
-            for (std::size_t k = 0; k < c.size(); ++k) evaluator.irradiance(c[k], normals, views[k]);
+        signed_irradiance_many(evaluator, c, normals, views);
         for (auto& view : views) scale(view, k_over_pi);
         return outputs;
     }
@@ -220,7 +227,9 @@ class Run {
         for (const CodecName& name : codecs) {
             const Encoding& e = encoding(name);
             const Reading& r = reading(name);
-            result.methods.push_back({name, e.run->basis->domain(), e.c, e.radiance, r.irradiance.at(name.encoder),
+            Errors radiance = e.radiance.at(r.negative);
+            radiance.negative_share = e.radiance.at(Negative::kept).negative_share;
+            result.methods.push_back({name, e.run->basis->domain(), e.c, radiance, r.irradiance.at(name.encoder),
                                       e.milliseconds, r.nanoseconds});
         }
         if (options_.pictures) {

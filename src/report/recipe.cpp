@@ -37,8 +37,10 @@ const std::vector<RecipeMethod>& methods_of(Recipe recipe) {
 }
 
 std::shared_ptr<const Encoder> encoder_of(const std::string& name, const std::shared_ptr<const Basis>& basis) {
-    // The updated post divides by the running mean of B_i^2, not by the clamped one.
-    const ProgressiveOptions sampled{.denominator = ProgressiveOptions::Denominator::sampled};
+    // The updated post divides by the running mean of B_i^2 (not the clamped one), and feeds it at first with what it
+    // prints as the known mean, 4 standing for 4 lambda in the exponent.
+    const ProgressiveOptions sampled{.denominator = ProgressiveOptions::Denominator::sampled,
+                                     .first_mean_square = static_cast<float>(-std::expm1(-4.0) / (4 * 6.0))};
     if (name == "progressive") return make_progressive(basis, Sign::any, sampled);
     if (name == "progressive-nn") return make_progressive(basis, Sign::non_negative, sampled);
     return make_encoder(name, basis).value();
@@ -71,15 +73,18 @@ Colours noisy_irradiance_over_pi(const Image& environment) {
     return out;
 }
 
-/// sqrt(mean (a - r)^2) over texels and channels, summed in order in float32.
+/// sqrt(mean (a - r)^2) over texels and channels; each channel summed in order in float32, which loses 1e-4 of it.
 double float_rms(ColourView a, ColourView reference) {
-    float sum = 0;
-    for (std::size_t i = 0; i < a.size; ++i)
-        for (std::size_t k = 0; k < 3; ++k) {
+    float total = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        float sum = 0;
+        for (std::size_t i = 0; i < a.size; ++i) {
             const float d = a.channel(k)[i] - reference.channel(k)[i];
             sum += d * d;
         }
-    return std::sqrt(static_cast<double>(sum) / (3 * static_cast<double>(a.size)));
+        total += sum;
+    }
+    return std::sqrt(static_cast<double>(total) / (3 * static_cast<double>(a.size)));
 }
 
 Errors recipe_errors(ColourView a, ColourView reference, std::span<const float> weights) {

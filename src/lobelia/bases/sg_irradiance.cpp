@@ -347,7 +347,7 @@ std::vector<float> sg_irradiance(SgIrradiance kind, double sharpness, std::span<
     const SgIrradianceWeights weights(kind, {{Vec3{0, 0, 1}, static_cast<float>(sharpness)}});
     Colours irradiance(cosines.size());
     const Rgb one{1, 1, 1};
-    weights.irradiance(std::span(&one, 1), normals, irradiance);
+    weights.signed_irradiance(std::span(&one, 1), normals, irradiance);
     return {irradiance.channel(0), irradiance.channel(0) + cosines.size()};
 }
 

@@ -9,8 +9,11 @@ constexpr std::size_t k_highest_degree = 8;
 /// E(n) = sum A_l L_lm Y_lm(n): exact for the radiance that the coefficients describe.
 class ConvolvedHarmonics final : public LinearEvaluator {
   public:
-    explicit ConvolvedHarmonics(std::size_t degree) : harmonics_(degree) {}
-    [[nodiscard]] std::string name() const override { return "convolution"; }
+    ConvolvedHarmonics(std::size_t degree, Negative negative) : harmonics_(degree), negative_(negative) {}
+    [[nodiscard]] std::string name() const override {
+        return negative_ == Negative::clamped ? "convolution" : "convolution-signed";
+    }
+    [[nodiscard]] Negative negative() const override { return negative_; }
     [[nodiscard]] Accuracy accuracy() const override { return {"every degree", "exact (1e-6 of float32 rounding)"}; }
     [[nodiscard]] std::size_t size() const override { return harmonics_.size(); }
     void values(DirectionView block, float* rows) const override {
@@ -24,6 +27,7 @@ class ConvolvedHarmonics final : public LinearEvaluator {
 
   private:
     harmonics::Harmonics harmonics_;
+    Negative negative_;
 };
 
 }  // namespace
@@ -54,7 +58,11 @@ std::vector<double> SphericalHarmonics::integrals() const {
 }
 
 std::shared_ptr<const Evaluator> SphericalHarmonics::evaluator(std::string_view name) const {
-    return name == "convolution" ? std::make_shared<ConvolvedHarmonics>(harmonics_.degree()) : nullptr;
+    for (Negative negative : {Negative::clamped, Negative::kept}) {
+        auto found = std::make_shared<ConvolvedHarmonics>(harmonics_.degree(), negative);
+        if (found->name() == name) return found;
+    }
+    return nullptr;
 }
 
 Basis::Rotated SphericalHarmonics::rotated(const Rotation& r, std::span<const Rgb> c) const {

@@ -29,7 +29,6 @@ class SequentialEncoder : public Encoder {
         for (std::size_t k = 0; k < 3; ++k) s.b[k] = padded.data() + k * lanes;
         s.per_lobe = padded.data() + 3 * lanes;
         s.floor = padded.data() + 4 * lanes;
-        s.mean_rate = mean_rate();
         for (std::size_t k = 0; k < 4; ++k)
             std::copy_n(state.data() + k_header + k * n, n, padded.data() + k * lanes);
         if (state[k_count] == 0) start(s);
@@ -48,8 +47,9 @@ class SequentialEncoder : public Encoder {
                 transpose(rows.data() + n * k_block_size, n, lanes, block.size, gains.data());
                 s.gains = gains.data();
             }
-            float steps[k_block_size];
-            for (std::size_t j = 0; j < block.size; ++j) steps[j] = step(block.solid_angles()[j], progress);
+            Steps steps;
+            steps.first = progress.count;
+            for (std::size_t j = 0; j < block.size; ++j) steps.of[j] = step(block.solid_angles()[j], progress);
             update(s, block.radiance(), steps);
         });
 
@@ -90,17 +90,21 @@ class SequentialEncoder : public Encoder {
         double weight = 0, count = 0;
     };
 
+    /// The steps of a block of samples, of which `first` came before.
+    struct Steps {
+        double first = 0;
+        float of[k_block_size];
+    };
+
     /// The first coefficients, in place of zeros.
     virtual void start(const kernels::Sequential&) const {}
     /// The least denominators; the lanes past the last lobe too.
     virtual void fill_floor(float*) const {}
-    /// 1 where the mean of B_i^2 is learned from the samples; 0 keeps it at 0, under the floor.
-    [[nodiscard]] virtual float mean_rate() const { return 1; }
     [[nodiscard]] virtual bool wants_gains() const { return false; }
     virtual void fill_gains(const float* /*rows*/, std::size_t /*size*/, float* /*to*/) const {}
     /// The step of a sample of weight `weight`; counts it in.
     virtual float step(float weight, Progress& progress) const = 0;
-    virtual void update(const kernels::Sequential& s, ColourView radiance, const float* steps) const = 0;
+    virtual void update(const kernels::Sequential& s, ColourView radiance, const Steps& steps) const = 0;
     /// How far the other estimate's lobe counts, and how the numbers per lobe combine.
     [[nodiscard]] virtual float merge_share(std::span<const float> /*state*/, std::span<const float> /*other*/,
                                             std::size_t /*per_lobe*/, float share) const {
@@ -127,8 +131,8 @@ class RunningAverage final : public SequentialEncoder {
         progress.count += 1;
         return weight;
     }
-    void update(const kernels::Sequential& s, ColourView radiance, const float* steps) const override {
-        kernels::running_average(s, radiance, steps);
+    void update(const kernels::Sequential& s, ColourView radiance, const Steps& steps) const override {
+        kernels::running_average(s, radiance, steps.of);
     }
     [[nodiscard]] float merge_share(std::span<const float> state, std::span<const float> other, std::size_t per_lobe,
                                     float) const override {
@@ -155,13 +159,13 @@ class Progressive final : public SequentialEncoder {
             s.b[1][i] = options_.seed[i].g;
             s.b[2][i] = options_.seed[i].b;
         }
+        if (options_.denominator != ProgressiveOptions::Denominator::sampled || options_.acceleration > 0) return;
+        for (std::size_t i = 0; i < basis().size(); ++i)
+            s.per_lobe[i] = options_.first_mean_square.value_or(mean_square_[i]);
     }
     void fill_floor(float* floor) const override {
         if (options_.denominator != ProgressiveOptions::Denominator::sampled)
             std::copy(mean_square_.begin(), mean_square_.end(), floor);
-    }
-    [[nodiscard]] float mean_rate() const override {
-        return options_.denominator == ProgressiveOptions::Denominator::exact ? 0 : 1;
     }
     float step(float weight, Progress& progress) const override {
         progress.count += 1;
@@ -170,11 +174,14 @@ class Progressive final : public SequentialEncoder {
         progress.weight += ramped;
         return progress.weight > 0 ? static_cast<float>(ramped / progress.weight) : 0;
     }
-    void update(const kernels::Sequential& s, ColourView radiance, const float* steps) const override {
-        if (options_.acceleration > 0)
-            accelerated(s, radiance, steps);
-        else
-            kernels::progressive(s, radiance, steps);
+    void update(const kernels::Sequential& s, ColourView radiance, const Steps& steps) const override {
+        if (options_.acceleration > 0) return accelerated(s, radiance, steps.of);
+        // The running mean of B_i^2 goes with the samples, except that its first entry may be given.
+        float mean_steps[k_block_size] = {};
+        if (options_.denominator != ProgressiveOptions::Denominator::exact)
+            std::copy_n(steps.of, radiance.size, mean_steps);
+        if (options_.denominator == ProgressiveOptions::Denominator::sampled && steps.first == 0) mean_steps[0] = 0;
+        kernels::progressive(s, radiance, steps.of, mean_steps);
     }
 
   private:
@@ -240,8 +247,8 @@ class MatrixGain final : public SequentialEncoder {
         const double damping = 1 + static_cast<double>(basis().size()) / progress.count;
         return progress.weight > 0 ? static_cast<float>(weight / (progress.weight * damping)) : 0;
     }
-    void update(const kernels::Sequential& s, ColourView radiance, const float* steps) const override {
-        kernels::matrix_gain(s, radiance, steps);
+    void update(const kernels::Sequential& s, ColourView radiance, const Steps& steps) const override {
+        kernels::matrix_gain(s, radiance, steps.of);
     }
 
   private:

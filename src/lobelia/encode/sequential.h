@@ -2,6 +2,8 @@
 // The running average (Pettineo and Roughton 2016), its corrected form (Roughton 2018, 2024) and the matrix gain (new).
 #pragma once
 
+#include <optional>
+
 #include "lobelia/encode/encoder.h"
 
 namespace lobelia {
@@ -15,6 +17,9 @@ enum class Sign { any, non_negative };
 struct ProgressiveOptions {
     /// S_i, the mean of B_i^2: as sampled, as known, or the larger of both ("clamped").
     enum class Denominator { clamped, sampled, exact } denominator = Denominator::clamped;
+    /// With `sampled`, the running mean starts from this in place of the first sample's square, by which it would
+    /// otherwise divide, however small; none: from the known mean.
+    std::optional<float> first_mean_square = {};
     /// Early samples count less, weight 1 - e^(-i / ramp); 0 turns the ramp off.
     double ramp = 0;
     /// Start from these coefficients, found from fewer samples, instead of from 0. Size 0 or basis size.
