@@ -73,6 +73,13 @@ Result<LatLong> parse_grid(const std::string& text) {
     return grid;
 }
 
+Status prepare_folder(const std::filesystem::path& folder) {
+    std::error_code code;
+    std::filesystem::create_directories(folder, code);
+    if (code) return Error{folder.string() + ": cannot be made a folder for the report: " + code.message()};
+    return Done{};
+}
+
 Progress progress_bar() {
     if (isatty(STDERR_FILENO) == 0) return {};
     const auto start = std::chrono::steady_clock::now();

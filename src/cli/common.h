@@ -41,6 +41,10 @@ void add_sampling_options(CLI::App& command, SamplingOptions& options);
 /// "256x128" as a grid of at least 1 x 1 and at most 2^26 texels.
 [[nodiscard]] Result<LatLong> parse_grid(const std::string& text);
 
+/// Makes the folder if it is missing and checks that it can be written to: before the work, so that a bad one costs
+/// no time.
+[[nodiscard]] Status prepare_folder(const std::filesystem::path& folder);
+
 /// A bar on stderr for work that lasts over a second, only where stderr is a terminal.
 [[nodiscard]] Progress progress_bar();
 

@@ -74,14 +74,6 @@ Result<Comparison> run(const Options& options, const Image& environment) {
     return compare(environment, *codecs, comparison, progress_bar());
 }
 
-/// The folder, made if missing; checked before the work, so that a bad one costs no time.
-Status prepare_folder(const std::filesystem::path& folder) {
-    std::error_code code;
-    std::filesystem::create_directories(folder, code);
-    if (code) return Error{folder.string() + ": cannot be made a folder for the report: " + code.message()};
-    return Done{};
-}
-
 void print_summary(const Comparison& comparison) {
     fmt::print("{:<42} {:>6} {:>12} {:>12} {:>12}\n", "codec", "bytes", "L rms", "E/pi rms", "E sMAPE");
     std::vector<const Method*> ranked;

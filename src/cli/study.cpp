@@ -1,9 +1,73 @@
 // lobelia study: tables and graphs of how good formulae and encoders are.
+#include <fmt/core.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "cli/common.h"
 #include "cli/verbs.h"
+#include "io/write_file.h"
+#include "lobelia/bases/sg_study.h"
+#include "report/study_encoders.h"
+#include "report/study_page.h"
 
 namespace lobelia::cli {
-Verb add_study(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("study", "Measure formulae and encoders");
-    return {command, []() -> Status { return Error{"nothing to study yet"}; }};
+namespace {
+
+struct Options {
+    std::string out = "lobelia-study";
+    EnvironmentOptions environment;
+    std::vector<std::string> bases = {"sg12h", "sg12@4"};
+    EncoderStudyOptions encoders;
+};
+
+/// Prints the tables and writes NAME.html, NAME.json and NAME.md.
+Status write_study(const Study& study, const std::filesystem::path& folder) {
+    if (auto status = prepare_folder(folder); !status) return status;
+    const auto page = study_html(study);
+    if (!page) return page.error();
+    const auto file = [&](const char* extension) { return folder / (study.name + extension); };
+    const std::string markdown = to_markdown(study);
+    if (auto status = write_file_atomically(file(".html"), *page); !status) return status;
+    if (auto status = write_file_atomically(file(".json"), to_json(study).dump(1) + "\n"); !status) return status;
+    if (auto status = write_file_atomically(file(".md"), markdown); !status) return status;
+    fmt::print("{}\n{}\n", markdown, file(".html").string());
+    return Done{};
 }
+
+}  // namespace
+
+Verb add_study(CLI::App& app) {
+    auto options = std::make_shared<Options>();
+    CLI::App* command = app.add_subcommand("study", "Measure formulae and encoders; write tables and graphs");
+    command->require_subcommand(1);
+
+    CLI::App* irradiance = command->add_subcommand(
+        "irradiance", "Irradiance formulae of spherical Gaussians against the exact integral");
+    irradiance->add_option("--out", options->out, "Folder of the study")->capture_default_str();
+
+    CLI::App* encoders =
+        command->add_subcommand("encoders", "Encoders against the number of samples, with and without path noise");
+    add_environment_options(*encoders, options->environment);
+    encoders->add_option("--out", options->out, "Folder of the study")->capture_default_str();
+    encoders->add_option("--basis", options->bases, "Bases to study")->capture_default_str();
+    encoders->add_option("--repetitions", options->encoders.repetitions, "Runs to average, 1 to 10000")
+        ->check(CLI::Range(std::size_t{1}, std::size_t{10000}))
+        ->capture_default_str();
+    encoders->add_option("--seed", options->encoders.seed, "Of all samples")->capture_default_str();
+    encoders->add_option("--noise", options->encoders.noise_variance, "Variance of the path noise, 0 to 100")
+        ->check(CLI::Range(0.0, 100.0))
+        ->capture_default_str();
+
+    return {command, [=]() -> Status {
+                if (irradiance->parsed()) return write_study(study_sg_irradiance(), options->out);
+                const auto environment = load(options->environment);
+                if (!environment) return environment.error();
+                const auto study =
+                    study_encoders(environment->image, options->bases, options->encoders, progress_bar());
+                if (!study) return study.error();
+                return write_study(*study, options->out);
+            }};
+}
+
 }  // namespace lobelia::cli

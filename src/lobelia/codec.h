@@ -42,6 +42,8 @@ class Codec {
 /// The lists behind every codec (codecs.cpp holds them).
 [[nodiscard]] std::vector<std::string> basis_names();
 [[nodiscard]] std::vector<std::string> encoder_names();
+/// Further encoders known by name: published variants that are only of interest in a study.
+[[nodiscard]] std::vector<std::string> encoder_variant_names();
 /// Encoders that make sense for a basis: the non-negative ones only where its functions are non-negative.
 [[nodiscard]] std::vector<std::string> encoder_names(const Basis& basis);
 /// The listed encoder whose solution this one strives for: least squares, its non-negative form, or the joint norm's.

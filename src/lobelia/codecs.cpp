@@ -21,12 +21,14 @@ constexpr std::array k_bases = {"sg12", "sg12h", "sh1", "sh2", "sh3", "sh4", "sh
 constexpr std::array k_families = {&SphericalGaussians::from_name, &SphericalHarmonics::from_name};
 
 enum class Needs { any_basis, non_negative_basis };
+enum class Listed { yes, no };
 
 struct EncoderEntry {
     const char* name;
     Needs needs;
     const char* limit;  ///< the encoder whose solution this one strives for
     EncoderPtr (*make)(BasisPtr);
+    Listed listed = Listed::yes;  ///< variants for study are known by name but not part of the product
 };
 
 template <MomentSolver solver>
@@ -36,6 +38,14 @@ EncoderPtr moments(BasisPtr basis) {
 template <Sign sign>
 EncoderPtr progressive(BasisPtr basis) {
     return make_progressive(std::move(basis), sign);
+}
+template <ProgressiveOptions::Denominator denominator>
+EncoderPtr progressive_with(BasisPtr basis) {
+    return make_progressive(std::move(basis), Sign::any, {.denominator = denominator});
+}
+EncoderPtr progressive_ramped(BasisPtr basis) { return make_progressive(std::move(basis), Sign::any, {.ramp = 64}); }
+EncoderPtr progressive_accelerated(BasisPtr basis) {
+    return make_progressive(std::move(basis), Sign::any, {.acceleration = 3});
 }
 template <Sign sign>
 EncoderPtr running_average(BasisPtr basis) {
@@ -55,10 +65,23 @@ constexpr std::array k_encoders = {
     EncoderEntry{"nnls", Needs::non_negative_basis, "nnls", moments<MomentSolver::non_negative>},
     EncoderEntry{"joint", Needs::any_basis, "joint", moments<MomentSolver::joint>},
     EncoderEntry{"joint-nn", Needs::non_negative_basis, "joint-nn", moments<MomentSolver::joint_non_negative>},
+    EncoderEntry{"progressive-sampled", Needs::any_basis, "least-squares",
+                 progressive_with<ProgressiveOptions::Denominator::sampled>, Listed::no},
+    EncoderEntry{"progressive-exact", Needs::any_basis, "least-squares",
+                 progressive_with<ProgressiveOptions::Denominator::exact>, Listed::no},
+    EncoderEntry{"progressive-ramped", Needs::any_basis, "least-squares", progressive_ramped, Listed::no},
+    EncoderEntry{"progressive-accelerated", Needs::any_basis, "least-squares", progressive_accelerated, Listed::no},
 };
 
 bool suits(const EncoderEntry& entry, const Basis& basis) {
     return entry.needs == Needs::any_basis || basis.is_non_negative();
+}
+
+std::vector<std::string> names_where(const auto& wanted) {
+    std::vector<std::string> names;
+    for (const auto& entry : k_encoders)
+        if (wanted(entry)) names.emplace_back(entry.name);
+    return names;
 }
 
 /// Levenshtein's edit distance.
@@ -84,16 +107,16 @@ std::string quoted(std::string_view name) { return "\"" + std::string(name) + "\
 std::vector<std::string> basis_names() { return {k_bases.begin(), k_bases.end()}; }
 
 std::vector<std::string> encoder_names() {
-    std::vector<std::string> names;
-    for (const auto& entry : k_encoders) names.emplace_back(entry.name);
-    return names;
+    return names_where([](const EncoderEntry& entry) { return entry.listed == Listed::yes; });
+}
+
+std::vector<std::string> encoder_variant_names() {
+    return names_where([](const EncoderEntry& entry) { return entry.listed == Listed::no; });
 }
 
 std::vector<std::string> encoder_names(const Basis& basis) {
-    std::vector<std::string> names;
-    for (const auto& entry : k_encoders)
-        if (suits(entry, basis)) names.emplace_back(entry.name);
-    return names;
+    return names_where(
+        [&](const EncoderEntry& entry) { return entry.listed == Listed::yes && suits(entry, basis); });
 }
 
 std::string encoder_limit(std::string_view encoder) {

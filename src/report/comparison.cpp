@@ -219,7 +219,7 @@ class Run {
     [[nodiscard]] Comparison assemble(const std::vector<CodecName>& codecs) {
         Comparison result;
         result.reference = "exact sum over texels";
-        result.sequence = options_.sequence ? std::string(sequence_name(*options_.sequence)) : "texels";
+        result.sequence = sampling_name(options_.sequence);
         result.samples = options_.sequence ? options_.samples : environment_.pixels.size();
         result.seed = options_.seed;
         result.grid = lat_long(environment_);
@@ -285,6 +285,10 @@ class Run {
 };
 
 }  // namespace
+
+std::string sampling_name(std::optional<Sequence> sequence) {
+    return sequence ? std::string(sequence_name(*sequence)) : "texels";
+}
 
 Samples arriving_samples(const Image& environment, Domain domain, const ComparisonOptions& options) {
     if (options.sequence)

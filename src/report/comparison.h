@@ -38,11 +38,14 @@ struct Method {
 /// Excess error |b - b*|_G / |b*|_G against the number of samples; b* is what the encoder strives for, solved from all
 /// texels; root mean square over repetitions.
 struct Convergence {
-    std::string basis, encoder;
-    Sequence sequence = Sequence::random;
+    std::string basis, encoder, sequence;
     std::vector<std::size_t> samples;
     std::vector<double> excess;
+    double converged_norm = 0;  ///< root mean square radiance of b*: excess times this is in W/(m^2 sr)
 };
+
+/// "texels" for none.
+[[nodiscard]] std::string sampling_name(std::optional<Sequence> sequence);
 
 /// Latitude-longitude pictures by name.
 struct ComparisonPictures {

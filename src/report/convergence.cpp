@@ -6,76 +6,108 @@
 namespace lobelia {
 namespace {
 
-double norm_squared(const Matrix& gram, std::span<const Rgb> v) {
-    double sum = 0;
-    for (std::size_t i = 0; i < v.size(); ++i)
-        for (std::size_t j = 0; j < v.size(); ++j)
-            sum += gram[i * v.size() + j] * (static_cast<double>(v[i].r) * v[j].r + static_cast<double>(v[i].g) * v[j].g +
-                                             static_cast<double>(v[i].b) * v[j].b);
-    return sum;
-}
-
 std::vector<Rgb> encode(const std::string& encoder, const std::shared_ptr<const Basis>& basis, SampleView samples) {
     Accumulator accumulator(make_encoder(encoder, basis).value());
     accumulator.add(samples);
     return accumulator.solve();
 }
 
+/// `count` samples in random order: points of a sequence, or texels of the environment, drawn without replacement.
+Samples drawn_samples(const Image& environment, const Samples& texels, Domain domain, std::optional<Sequence> sequence,
+                      std::size_t count, std::uint32_t seed) {
+    std::mt19937 generator(seed);
+    if (sequence) {
+        const Samples points =
+            directed_samples(environment, uniform_directions(domain, *sequence, count, seed), domain);
+        return reordered(points, shuffled_order(count, generator));
+    }
+    auto order = shuffled_order(texels.size(), generator);
+    order.resize(std::min(count, order.size()));
+    return reordered(texels, order);
+}
+
+/// Multiplies every radiance by a lognormal factor of mean 1.
+Samples with_path_noise(const Samples& samples, double variance, std::uint32_t seed) {
+    if (!(variance > 0)) return samples;
+    const double sigma = std::sqrt(std::log1p(variance));
+    std::mt19937 generator(seed);
+    const auto uniform = [&] { return (static_cast<double>(generator()) + 0.5) * 0x1p-32; };
+    Samples noisy(samples.size());
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        RadianceSample s = samples[i];
+        // A normal deviate by Box and Muller, the same on every platform.
+        const double radius = std::sqrt(-2 * std::log(uniform()));
+        const double normal = radius * std::cos(2 * k_pi * uniform());
+        s.radiance = s.radiance * static_cast<float>(std::exp(sigma * normal - sigma * sigma / 2));
+        noisy.set(i, s);
+    }
+    return noisy;
+}
+
+/// All encoders of a task under one kind of sampling.
+void run_job(const Image& environment, const ConvergenceTask& task, std::optional<Sequence> sequence,
+             const ConvergenceOptions& options, std::span<Convergence> results) {
+    const Domain domain = task.basis->domain();
+    const Samples texels = texel_samples(environment, domain);
+    const Matrix gram = task.basis->gram();
+    std::vector<std::shared_ptr<const Encoder>> encoders;
+    std::vector<std::vector<Rgb>> converged;
+    for (std::size_t e = 0; e < task.encoders.size(); ++e) {
+        encoders.push_back(make_encoder(task.encoders[e], task.basis).value());
+        converged.push_back(encode(encoder_limit(task.encoders[e]), task.basis, texels));
+        results[e].converged_norm = std::sqrt(squared_norm(gram, converged[e]) / (3 * solid_angle(domain)));
+    }
+    for (std::size_t count : options.counts) {
+        std::vector<double> squared(encoders.size());
+        for (std::size_t r = 0; r < options.repetitions; ++r) {
+            const auto seed = static_cast<std::uint32_t>(options.seed + 7919 * r);
+            const Samples samples = with_path_noise(drawn_samples(environment, texels, domain, sequence, count, seed),
+                                                    options.noise_variance, seed + 1);
+            for (std::size_t e = 0; e < encoders.size(); ++e) {
+                Accumulator accumulator(encoders[e]);
+                accumulator.add(samples);
+                std::vector<Rgb> difference = accumulator.solve();
+                for (std::size_t i = 0; i < difference.size(); ++i) difference[i] = difference[i] - converged[e][i];
+                const double size = squared_norm(gram, converged[e]);
+                squared[e] += size > 0 ? squared_norm(gram, difference) / size : 0;
+            }
+        }
+        for (std::size_t e = 0; e < encoders.size(); ++e)
+            results[e].excess.push_back(std::sqrt(squared[e] / static_cast<double>(options.repetitions)));
+    }
+}
+
 }  // namespace
 
-double excess_error(const Matrix& gram, std::span<const Rgb> b, std::span<const Rgb> converged) {
-    std::vector<Rgb> difference(b.size());
-    for (std::size_t i = 0; i < b.size(); ++i) difference[i] = b[i] - converged[i];
-    const double size = norm_squared(gram, converged);
-    return size > 0 ? std::sqrt(std::max(0.0, norm_squared(gram, difference)) / size) : 0;
+double squared_norm(const Matrix& gram, std::span<const Rgb> b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < b.size(); ++i)
+        for (std::size_t j = 0; j < b.size(); ++j)
+            sum += gram[i * b.size() + j] * (static_cast<double>(b[i].r) * b[j].r + static_cast<double>(b[i].g) * b[j].g +
+                                             static_cast<double>(b[i].b) * b[j].b);
+    return std::max(0.0, sum);
 }
 
 std::vector<Convergence> measure_convergence(const Image& environment, const std::vector<ConvergenceTask>& tasks,
                                              const ConvergenceOptions& options) {
+    // List what is to be measured: a job for each basis and kind of sampling, with a result for each encoder.
     std::vector<Convergence> results;
     struct Job {
         const ConvergenceTask* task;
-        Sequence sequence;
-        std::size_t first;  ///< of its results, one per encoder
+        std::optional<Sequence> sequence;
+        std::size_t first;
     };
     std::vector<Job> jobs;
     for (const auto& task : tasks)
-        for (Sequence sequence : task.sequences) {
+        for (const auto& sequence : task.sequences) {
             jobs.push_back({&task, sequence, results.size()});
             for (const auto& encoder : task.encoders)
-                results.push_back({task.basis->name(), encoder, sequence, options.counts, {}});
+                results.push_back({task.basis->name(), encoder, sampling_name(sequence), options.counts, {}, 0});
         }
 
-    tbb::parallel_for(std::size_t{0}, jobs.size(), [&](std::size_t job_index) {
-        const auto& [task, sequence, first] = jobs[job_index];
-        const Domain domain = task->basis->domain();
-        const Samples texels = texel_samples(environment, domain);
-        const Matrix gram = task->basis->gram();
-        std::vector<std::shared_ptr<const Encoder>> encoders;
-        std::vector<std::vector<Rgb>> converged;
-        for (const auto& name : task->encoders) {
-            encoders.push_back(make_encoder(name, task->basis).value());
-            converged.push_back(encode(encoder_limit(name), task->basis, texels));
-        }
-        for (std::size_t count : options.counts) {
-            std::vector<double> squared(encoders.size());
-            for (std::size_t r = 0; r < options.repetitions; ++r) {
-                // Shuffle: encoders that learn as they go need samples without an order.
-                const auto seed = static_cast<std::uint32_t>(options.seed + 7919 * r);
-                const Samples points =
-                    directed_samples(environment, uniform_directions(domain, sequence, count, seed), domain);
-                std::mt19937 generator(seed);
-                const Samples samples = reordered(points, shuffled_order(count, generator));
-                for (std::size_t e = 0; e < encoders.size(); ++e) {
-                    Accumulator accumulator(encoders[e]);
-                    accumulator.add(samples);
-                    squared[e] += std::pow(excess_error(gram, accumulator.solve(), converged[e]), 2);
-                }
-            }
-            for (std::size_t e = 0; e < encoders.size(); ++e)
-                results[first + e].excess.push_back(
-                    std::sqrt(squared[e] / static_cast<double>(options.repetitions)));
-        }
+    tbb::parallel_for(std::size_t{0}, jobs.size(), [&](std::size_t i) {
+        const Job& job = jobs[i];
+        run_job(environment, *job.task, job.sequence, options, std::span(results).subspan(job.first, job.task->encoders.size()));
     });
     return results;
 }

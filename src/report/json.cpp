@@ -53,7 +53,7 @@ json to_json(const Method& m, DirectionView judged) {
 json to_json(const Convergence& c) {
     return {{"basis", c.basis},
             {"encoder", c.encoder},
-            {"sequence", sequence_name(c.sequence)},
+            {"sequence", c.sequence},
             {"samples", c.samples},
             {"excess", c.excess}};
 }

@@ -3,6 +3,7 @@
 
 #include <charconv>
 #include <fstream>
+#include <optional>
 #include <sstream>
 
 #include "lobelia/bases/sg_irradiance.h"
@@ -53,6 +54,13 @@ Vec3 spiral_point(std::size_t index, double z) {
 }
 
 constexpr std::size_t k_most_lobes = 512;
+
+std::optional<float> parse_sharpness(std::string_view text) {
+    float sharpness = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), sharpness);
+    if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+    return sharpness >= 0.01f && sharpness <= 1e4f ? std::optional(sharpness) : std::nullopt;
+}
 
 Result<std::vector<Lobe>> parse_lobes(std::istream& in, const std::string& path) {
     std::vector<Lobe> lobes;
@@ -141,12 +149,20 @@ Result<std::shared_ptr<const Basis>> SphericalGaussians::from_name(std::string_v
     std::size_t count = 0;
     const auto [end, error] = std::from_chars(name.data() + 2, name.data() + name.size(), count);
     if (error != std::errc() || count < 1 || count > k_most_lobes) return none;
-    const std::string_view kind = name.substr(static_cast<std::size_t>(end - name.data()));
-    if (kind == "h") return make(spiral_hemisphere(count), Domain::hemisphere);
-    if (!kind.empty() && kind != "a") return none;
-    auto lobes = vogel_sphere(count);
+    std::string_view kind = name.substr(static_cast<std::size_t>(end - name.data()));
+    std::optional<float> sharpness;
+    if (const auto at = kind.find('@'); at != std::string_view::npos) {
+        const auto parsed = parse_sharpness(kind.substr(at + 1));
+        if (!parsed) return none;
+        sharpness = *parsed;
+        kind = kind.substr(0, at);
+    }
+    if (!kind.empty() && kind != "a" && kind != "h") return none;
+    auto lobes = kind == "h" ? spiral_hemisphere(count) : vogel_sphere(count);
+    if (sharpness)
+        for (Lobe& lobe : lobes) lobe.sharpness = *sharpness;
     if (kind == "a") lobes.push_back({{0, 0, 1}, 0});
-    return make(std::move(lobes), Domain::sphere);
+    return make(std::move(lobes), kind == "h" ? Domain::hemisphere : Domain::sphere);
 }
 
 void SphericalGaussians::values(DirectionView block, float* rows) const {

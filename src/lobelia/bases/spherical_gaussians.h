@@ -24,8 +24,9 @@ class SphericalGaussians final : public Basis {
   public:
     SphericalGaussians(std::string name, std::vector<gaussian::Lobe> lobes, Domain domain);
 
-    /// sg<N>: the Vogel sphere of N lobes. sg<N>a: and an ambient lobe. sg<N>h: the hemispherical set. sg:FILE,
-    /// sgh:FILE: a set from a file, over the sphere or the hemisphere. N is 1 to 512. Null if the name is none of these.
+    /// sg<N>: the Vogel sphere of N lobes. sg<N>a: and an ambient lobe. sg<N>h: the hemispherical set. Then @S: of
+    /// sharpness S instead of the set's own, 0.01 to 10000. sg:FILE, sgh:FILE: a set from a file, over the sphere or
+    /// the hemisphere. N is 1 to 512. Null if the name is none of these.
     [[nodiscard]] static Result<std::shared_ptr<const Basis>> from_name(std::string_view name);
 
     [[nodiscard]] const std::vector<gaussian::Lobe>& lobes() const { return lobes_; }
