@@ -10,7 +10,7 @@
 namespace lobelia {
 
 /// Small limits: a hostile file may cost no more than a few megabytes and milliseconds.
-inline constexpr ReadOptions k_fuzz_options{.ldr = false, .sanitize = true, .most_pixels = 1 << 16};
+inline constexpr ReadOptions k_fuzz_options{.ldr = true, .sanitize = true, .most_pixels = 1 << 16};
 
 inline void require(bool holds) {
     if (!holds) std::abort();

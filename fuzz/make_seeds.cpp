@@ -1,8 +1,21 @@
-// Writes a seed corpus: small valid files of every kind, into FOLDER/hdr and FOLDER/exr.
+// Writes a seed corpus: small valid files of every kind, into FOLDER/hdr, FOLDER/exr and FOLDER/ldr.
+#define STB_IMAGE_WRITE_IMPLEMENTATION
+#define STB_IMAGE_WRITE_STATIC
+#if defined(__GNUC__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wunused-function"
+#pragma GCC diagnostic ignored "-Wmissing-field-initializers"
+#endif
+#include <stb/stb_image_write.h>
+#if defined(__GNUC__)
+#pragma GCC diagnostic pop
+#endif
+
 #include <cstdio>
 #include <filesystem>
 
 #include "io/write_file.h"
+#include "io/write_image.h"
 #include "io_files.h"
 
 namespace {
@@ -53,6 +66,26 @@ bool write_exr_seeds(const std::filesystem::path& folder) {
     return done;
 }
 
+bool write_ldr_seeds(const std::filesystem::path& folder) {
+    const Image8 picture = to_srgb(test_image(20, 10), 0.02f);
+    const auto append = [](void* target, void* data, int size) {
+        static_cast<std::string*>(target)->append(static_cast<const char*>(data), static_cast<std::size_t>(size));
+    };
+    // The same bytes as pictures of 1 to 4 channels.
+    bool done = true;
+    for (int channels = 1; channels <= 4; ++channels) {
+        std::string png, jpeg, bmp;
+        const void* data = picture.rgb.data();
+        done &= stbi_write_png_to_func(append, &png, 15, 10, channels, data, 15 * channels) != 0;
+        done &= stbi_write_jpg_to_func(append, &jpeg, 15, 10, channels, data, 70 + 10 * channels) != 0;
+        done &= stbi_write_bmp_to_func(append, &bmp, 15, 10, channels, data) != 0;
+        const std::string name = std::to_string(channels);
+        done &= write(folder, name + ".png", png) && write(folder, name + ".jpg", jpeg) &&
+                write(folder, name + ".bmp", bmp);
+    }
+    return done;
+}
+
 }  // namespace
 
 int main(int count, char** arguments) {
@@ -61,8 +94,8 @@ int main(int count, char** arguments) {
         return 2;
     }
     const std::filesystem::path folder = arguments[1];
-    std::filesystem::create_directories(folder / "hdr");
-    std::filesystem::create_directories(folder / "exr");
-    const bool done = write_hdr_seeds(folder / "hdr") && write_exr_seeds(folder / "exr");
+    for (const char* kind : {"hdr", "exr", "ldr"}) std::filesystem::create_directories(folder / kind);
+    const bool done =
+        write_hdr_seeds(folder / "hdr") && write_exr_seeds(folder / "exr") && write_ldr_seeds(folder / "ldr");
     return done ? 0 : 1;
 }

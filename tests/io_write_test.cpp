@@ -196,5 +196,16 @@ TEST(ReadLdr, PicturesNeedTheOption) {
         EXPECT_FALSE(read_environment(bytes.first(length), "picture.png", {.ldr = true})) << length;
 }
 
+TEST(ReadLdr, OversizedHuffmanTablesAreRefused) {
+    using namespace std::string_literals;
+    // A table that claims 16 * 20 codes, of which there can be 256.
+    const std::string segment =
+        "\xff\xc4"s + std::string("\x01\x53\x00", 3) + std::string(16, 20) + std::string(320, 'c');
+    const std::string jpeg = "\xff\xd8"s + segment + "\xff\xd9";
+    const auto loaded = read_environment(std::as_bytes(std::span(jpeg)), "picture.jpg", {.ldr = true});
+    ASSERT_FALSE(loaded);
+    EXPECT_NE(loaded.error().message.find("Huffman"), std::string::npos) << loaded.error().message;
+}
+
 }  // namespace
 }  // namespace lobelia

@@ -120,8 +120,9 @@ Status check_part(const Imf::Header& header, const Choice& choice, std::string_v
                   const ReadOptions& options) {
     const Size size = size_of(header);
     if (const Status status = check_size(name, size.width, size.height, options); !status) return status;
-    const std::int64_t most_buffered =
-        std::min(std::int64_t{1} << 28, static_cast<std::int64_t>(4 * options.most_pixels + (1u << 20)));
+    constexpr std::size_t k_most_buffered = std::size_t{1} << 28, k_always = std::size_t{1} << 20;
+    const auto most_buffered = static_cast<std::int64_t>(
+        std::min(k_most_buffered, k_always + 4 * std::min(options.most_pixels, k_most_buffered)));
     if (buffered_samples(header) > most_buffered)
         return Error{fmt::format("{}: one chunk of the image would take more than {} samples", name, most_buffered)};
 

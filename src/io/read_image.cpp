@@ -10,6 +10,7 @@
 #include <optional>
 #include <system_error>
 
+#include "io/image_checks.h"
 #include "io/read_exr.h"
 
 namespace lobelia {
@@ -61,7 +62,8 @@ Result<OpenFile> open(const std::filesystem::path& path, std::string_view name) 
 Result<std::vector<std::byte>> read_all(OpenFile file, std::size_t size_hint, std::string_view name,
                                         const ReadOptions& options) {
     // No format takes more bytes for a pixel; the rest is for headers.
-    const std::size_t most_bytes = 16 * options.most_pixels + (std::size_t{64} << 20);
+    constexpr std::size_t k_most_pixels = std::size_t{io::k_most_side} * io::k_most_side;
+    const std::size_t most_bytes = 16 * std::min(options.most_pixels, k_most_pixels) + (std::size_t{64} << 20);
     constexpr std::size_t k_step = std::size_t{1} << 20;
     std::vector<std::byte> bytes = std::move(file.begin);
     bytes.reserve(std::min(size_hint + k_step, most_bytes));

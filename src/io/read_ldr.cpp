@@ -19,12 +19,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
 #include <limits>
 #include <memory>
 
 #include "io/image_checks.h"
+#include "io/jpeg_check.h"
 #include "lobelia/colour.h"
 
 namespace lobelia {
@@ -58,18 +57,6 @@ Image decoded(const Sample* samples, PictureInfo info) {
     return image;
 }
 
-/// Whether a JPEG ends before its image does: stb_image would fill the rest with grey. Within image data the byte 0xff
-/// is escaped, so the last marker pair is either the end of the image or the start of the scan that was cut.
-bool is_truncated_jpeg(std::span<const std::byte> bytes) {
-    const auto last_marker = [&](std::byte code) {
-        const std::array<std::byte, 2> marker{std::byte{0xff}, code};
-        return std::find_end(bytes.begin(), bytes.end(), marker.begin(), marker.end());
-    };
-    const auto end_of_image = last_marker(std::byte{0xd9});
-    const auto start_of_scan = last_marker(std::byte{0xda});
-    return end_of_image == bytes.end() || (start_of_scan != bytes.end() && end_of_image < start_of_scan);
-}
-
 Status check_picture(std::span<const std::byte> bytes, std::string_view name, PictureInfo info,
                      const ReadOptions& options) {
     if (const Status status = io::check_size(name, info.width, info.height, options); !status) return status;
@@ -79,8 +66,6 @@ Status check_picture(std::span<const std::byte> bytes, std::string_view name, Pi
     if (pixels / k_most_pixels_per_byte > bytes.size())
         return Error{
             fmt::format("{}: {} bytes cannot hold {} x {} pixels", name, bytes.size(), info.width, info.height)};
-    if (bytes[0] == std::byte{0xff} && is_truncated_jpeg(bytes))
-        return Error{fmt::format("{}: the JPEG picture ends too early, at byte {}", name, bytes.size())};
     return Done{};
 }
 
@@ -110,7 +95,10 @@ Result<LoadedImage> read_ldr(std::span<const std::byte> bytes, std::string_view 
     if (bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
         return Error{fmt::format("{}: the picture file is larger than 2 GiB", name)};
 
-    // Check the size, then decode.
+    // Check the segments and the size, then decode.
+    const bool is_jpeg = !bytes.empty() && bytes[0] == std::byte{0xff};
+    if (const auto problem = is_jpeg ? io::jpeg_problem(bytes) : std::nullopt)
+        return Error{fmt::format("{}: a damaged picture: {}", name, *problem)};
     const StbBytes source{reinterpret_cast<const stbi_uc*>(bytes.data()), static_cast<int>(bytes.size())};
     PictureInfo info;
     int channels = 0;

@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include "io/exr_stream.h"
+#include "io/image_checks.h"
 #include "io/write_file.h"
 #include "io/write_image.h"
 
@@ -23,8 +24,8 @@ half saturated_half(float value) {
 }
 
 Status check(std::size_t width, std::size_t height, std::span<const ExrChannel> channels) {
-    constexpr std::size_t k_most_side = 65536, k_longest_name = 255;
-    if (width == 0 || height == 0 || width > k_most_side || height > k_most_side)
+    constexpr std::size_t k_longest_name = 255;
+    if (width == 0 || height == 0 || width > io::k_most_side || height > io::k_most_side)
         return Error{fmt::format("an OpenEXR image of {} x {} pixels cannot be written", width, height)};
     if (channels.empty()) return Error{"an OpenEXR image without channels cannot be written"};
     for (const ExrChannel& channel : channels) {

@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <array>
 
+#include "io/image_checks.h"
 #include "io/write_file.h"
 #include "io/write_image.h"
 #include "lobelia/colour.h"
@@ -47,9 +48,9 @@ Image8 to_srgb(const Image& image, float exposure) {
 
 Result<std::string> encode_png(const Image8& picture) {
     // stb_image_write counts bytes in int.
-    constexpr std::size_t k_most_side = 65536, k_most_pixels = std::size_t{1} << 28;
+    constexpr std::size_t k_most_pixels = std::size_t{1} << 28;
     const std::size_t pixels = picture.width * picture.height;
-    if (pixels == 0 || picture.width > k_most_side || picture.height > k_most_side || pixels > k_most_pixels ||
+    if (pixels == 0 || picture.width > io::k_most_side || picture.height > io::k_most_side || pixels > k_most_pixels ||
         picture.rgb.size() != 3 * pixels)
         return Error{fmt::format("a picture of {} x {} pixels in {} bytes cannot be written", picture.width,
                                  picture.height, picture.rgb.size())};
