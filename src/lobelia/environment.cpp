@@ -1,7 +1,11 @@
 // Latitude-longitude environments: which texel looks where, samples from them, resizing.
 #include "lobelia/environment.h"
 
+#include <bit>
+#include <numeric>
+
 #include "lobelia/kernels.h"
+#include "lobelia/sampling.h"
 
 namespace lobelia {
 namespace {
@@ -41,6 +45,35 @@ std::vector<double> latitude_edges(std::size_t height) {
     return edges;
 }
 
+/// Place of cell (x, y) along the Hilbert curve through a square of `side` = 2^k cells.
+std::uint64_t hilbert_index(std::uint32_t side, std::uint32_t x, std::uint32_t y) {
+    std::uint64_t index = 0;
+    for (std::uint32_t s = side / 2; s > 0; s /= 2) {
+        const std::uint32_t right = (x & s) ? 1 : 0, lower = (y & s) ? 1 : 0;
+        index += static_cast<std::uint64_t>(s) * s * ((3 * right) ^ lower);
+        // Turn the quadrant so that its curve starts where the last one ended.
+        if (lower == 0) {
+            if (right == 1) {
+                x = side - 1 - x;
+                y = side - 1 - y;
+            }
+            std::swap(x, y);
+        }
+    }
+    return index;
+}
+
+/// The named texels as samples, in the order given.
+Samples samples_of(const Image& environment, Domain domain, const std::vector<std::uint32_t>& texels) {
+    const LatLong grid = lat_long(environment);
+    const Directions directions = grid.directions(domain);
+    const std::vector<float> solid_angles = grid.solid_angles();
+    Samples samples(texels.size());
+    for (std::size_t i = 0; i < texels.size(); ++i)
+        samples.set(i, {direction_at(directions, texels[i]), environment.pixels[texels[i]], solid_angles[texels[i]]});
+    return samples;
+}
+
 Vec3 direction_from_angles(double sin_theta, double cos_theta, double sin_phi, double cos_phi) {
     return {static_cast<float>(sin_phi * sin_theta), static_cast<float>(cos_phi),
             static_cast<float>(-sin_phi * cos_theta)};
@@ -77,7 +110,7 @@ double LatLong::solid_angle(std::size_t y) const {
     return 2 * k_pi / static_cast<double>(width) * band;
 }
 
-Directions LatLong::directions() const {
+Directions LatLong::directions(Domain domain) const {
     // Tabulate the azimuths once: a grid has far more texels than columns.
     std::vector<double> sin_theta(width), cos_theta(width);
     for (std::size_t x = 0; x < width; ++x) {
@@ -91,7 +124,8 @@ Directions LatLong::directions() const {
         const double sin_phi = std::sin(phi), cos_phi = std::cos(phi);
         for (std::size_t x = 0; x < width; ++x)
             set_entry(result.view(), y * width + x,
-                      direction_from_angles(sin_theta[x], cos_theta[x], sin_phi, cos_phi));
+                      domain_from_world(domain,
+                                        direction_from_angles(sin_theta[x], cos_theta[x], sin_phi, cos_phi)));
     }
     return result;
 }
@@ -103,6 +137,10 @@ std::vector<float> LatLong::solid_angles() const {
                     static_cast<float>(solid_angle(y)));
     return result;
 }
+
+Vec3 domain_from_world(Domain domain, Vec3 d) { return domain == Domain::sphere ? d : Vec3{d.x, -d.z, d.y}; }
+
+Vec3 world_from_domain(Domain domain, Vec3 d) { return domain == Domain::sphere ? d : Vec3{d.x, d.z, -d.y}; }
 
 Image resize(const Image& environment, LatLong target) {
     if (lat_long(environment) == target) return environment;
@@ -146,18 +184,34 @@ LatLong reduced_grid(LatLong grid, std::size_t most_texels) {
     return {scaled(grid.width), std::min(scaled(grid.height), most_texels / scaled(grid.width))};
 }
 
+std::vector<std::uint32_t> LatLong::texels_of(Domain domain) const {
+    // The hemisphere sees the rows whose centres lie above the horizon: whole rows, from the top.
+    const std::size_t rows = domain == Domain::sphere ? height : height / 2;
+    std::vector<std::uint32_t> texels(rows * width);
+    std::iota(texels.begin(), texels.end(), 0u);
+    return texels;
+}
+
 Samples texel_samples(const Image& environment, Domain domain) {
+    return samples_of(environment, domain, lat_long(environment).texels_of(domain));
+}
+
+Samples shuffled_texel_samples(const Image& environment, Domain domain, std::uint32_t seed) {
     const LatLong grid = lat_long(environment);
-    const Directions directions = grid.directions();
-    std::vector<std::size_t> kept;
-    kept.reserve(grid.size());
-    for (std::size_t i = 0; i < grid.size(); ++i)
-        if (domain == Domain::sphere || directions.channel(2)[i] > 0) kept.push_back(i);
-    const std::vector<float> solid_angles = grid.solid_angles();
-    Samples samples(kept.size());
-    for (std::size_t i = 0; i < kept.size(); ++i)
-        samples.set(i, {direction_at(directions, kept[i]), environment.pixels[kept[i]], solid_angles[kept[i]]});
-    return samples;
+    std::vector<std::uint32_t> texels = grid.texels_of(domain);
+
+    // Line the texels up along the curve, so that neighbours in the line are neighbours on the sphere.
+    const std::uint32_t side = static_cast<std::uint32_t>(std::bit_ceil(std::max(grid.width, grid.height)));
+    std::vector<std::uint64_t> key(grid.size());
+    for (std::uint32_t texel : texels)
+        key[texel] = hilbert_index(side, static_cast<std::uint32_t>(texel % grid.width),
+                                   static_cast<std::uint32_t>(texel / grid.width));
+    std::sort(texels.begin(), texels.end(), [&](std::uint32_t a, std::uint32_t b) { return key[a] < key[b]; });
+
+    const auto order = spread_order(texels.size(), seed);
+    std::vector<std::uint32_t> visited(order.size());
+    for (std::size_t i = 0; i < order.size(); ++i) visited[i] = texels[order[i]];
+    return samples_of(environment, domain, visited);
 }
 
 Samples directed_samples(const Image& environment, DirectionView directions, Domain domain) {
@@ -166,7 +220,7 @@ Samples directed_samples(const Image& environment, DirectionView directions, Dom
     Samples samples(directions.size);
     for (std::size_t i = 0; i < directions.size; ++i) {
         const Vec3 d = direction_at(directions, i);
-        samples.set(i, {d, environment.pixels[grid.index(d)], share});
+        samples.set(i, {d, environment.pixels[grid.index(world_from_domain(domain, d))], share});
     }
     return samples;
 }

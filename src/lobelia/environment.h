@@ -28,8 +28,10 @@ struct LatLong {
     [[nodiscard]] std::size_t index(Vec3 direction) const;
     /// Solid angle [sr] of a texel of row y; over all texels they sum to 4 pi.
     [[nodiscard]] double solid_angle(std::size_t y) const;
-    /// All texel centres, row by row.
-    [[nodiscard]] Directions directions() const;
+    /// All texel centres, row by row, in the frame of the domain (see domain_from_world).
+    [[nodiscard]] Directions directions(Domain domain = Domain::sphere) const;
+    /// Indices of the texels that a domain sees, in row order: all, or those whose centres are above the horizon.
+    [[nodiscard]] std::vector<std::uint32_t> texels_of(Domain domain) const;
     /// All solid angles, row by row.
     [[nodiscard]] std::vector<float> solid_angles() const;
 
@@ -37,6 +39,11 @@ struct LatLong {
 };
 
 [[nodiscard]] inline LatLong lat_long(const Image& image) { return {image.width, image.height}; }
+
+/// How a domain sees the world. The sphere has the world's axes, y up; the hemisphere is the tangent frame of a
+/// horizontal surface, whose z axis (the normal) is the world's y: (x, y, z) is seen as (x, -z, y).
+[[nodiscard]] Vec3 domain_from_world(Domain domain, Vec3 direction);
+[[nodiscard]] Vec3 world_from_domain(Domain domain, Vec3 direction);
 
 /// The environment resampled to `target` by exact overlap of texels in solid angle: the integral over any set of whole
 /// target texels is kept (to rounding), so energy is, too. The target's texels tile the circle of longitudes, hence the
@@ -47,10 +54,16 @@ struct LatLong {
 /// reduction; the grid itself where it is small enough.
 [[nodiscard]] LatLong reduced_grid(LatLong grid, std::size_t most_texels);
 
-/// Every texel once, in row order, weighted by its solid angle; for the hemisphere only those with z > 0.
+/// Every texel once, in row order, weighted by its solid angle, seen by the domain; the hemisphere sees those above the
+/// horizon only.
 [[nodiscard]] Samples texel_samples(const Image& environment, Domain domain = Domain::sphere);
 
-/// A sample for each direction: the value of the nearest texel, and an equal share of the domain.
+/// The same texels in a random order of which every beginning is spread evenly over them: along a Hilbert curve
+/// through the image, visited in the order of a scrambled van der Corput sequence.
+[[nodiscard]] Samples shuffled_texel_samples(const Image& environment, Domain domain, std::uint32_t seed);
+
+/// A sample for each direction (in the domain's frame): the value of the nearest texel, and an equal share of the
+/// domain.
 [[nodiscard]] Samples directed_samples(const Image& environment, DirectionView directions, Domain domain);
 
 /// The pixels as colours, row by row.

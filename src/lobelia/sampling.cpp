@@ -54,8 +54,8 @@ std::uint32_t owen_scramble(std::uint32_t value, std::uint32_t seed) {
 }
 
 Point2 scrambled_sobol(std::uint32_t i, std::uint32_t seed) {
-    const std::uint32_t index = owen_scramble(reverse_bits(i), hash(seed, 0));
-    const std::uint32_t shuffled = reverse_bits(index);
+    // Scrambling the index as well keeps each aligned block of 2^k points together, in another order.
+    const std::uint32_t shuffled = owen_scramble(i, hash(seed, 0));
     return {unit_interval(owen_scramble(reverse_bits(shuffled), hash(seed, 1))),
             unit_interval(owen_scramble(sobol_dimension_2(shuffled), hash(seed, 2)))};
 }
@@ -167,6 +167,19 @@ std::vector<std::uint32_t> shuffled_order(std::size_t count, std::mt19937& gener
         do draw = static_cast<std::uint32_t>(generator()) & mask;
         while (draw > last);
         std::swap(order[first], order[first + draw]);
+    }
+    return order;
+}
+
+std::vector<std::uint32_t> spread_order(std::size_t count, std::uint32_t seed) {
+    // Run through the next power of two and leave out what lies beyond the range.
+    const int bits = static_cast<int>(std::bit_width(count > 0 ? count - 1 : 0));
+    std::vector<std::uint32_t> order;
+    order.reserve(count);
+    for (std::uint64_t i = 0; i < std::uint64_t{1} << bits; ++i) {
+        const std::uint32_t scrambled = owen_scramble(reverse_bits(static_cast<std::uint32_t>(i)), hash(seed, 0));
+        const std::uint32_t position = bits == 0 ? 0 : scrambled >> (32 - bits);
+        if (position < count) order.push_back(position);
     }
     return order;
 }

@@ -67,6 +67,10 @@ struct CosineHemisphere {
 /// with rejection, so that it is unbiased and the same on every platform.
 [[nodiscard]] std::vector<std::uint32_t> shuffled_order(std::size_t count, std::mt19937& generator);
 
+/// The numbers 0 .. count - 1 in a random order of which every beginning is spread evenly over the range: the van der
+/// Corput sequence, Owen-scrambled by `seed`.
+[[nodiscard]] std::vector<std::uint32_t> spread_order(std::size_t count, std::uint32_t seed);
+
 /// Sample order[i] of `samples` at place i.
 [[nodiscard]] Samples reordered(SampleView samples, std::span<const std::uint32_t> order);
 

@@ -34,11 +34,7 @@ constexpr auto k_over_pi = static_cast<float>(1 / k_pi);
 
 /// The entries of a whole grid that a domain's texels are, in their order.
 Colours restricted(const Colours& grid_colours, LatLong grid, Domain domain) {
-    if (domain == Domain::sphere) return grid_colours;
-    const Directions directions = grid.directions();
-    std::vector<std::size_t> kept;
-    for (std::size_t i = 0; i < grid.size(); ++i)
-        if (directions.channel(2)[i] > 0) kept.push_back(i);
+    const auto kept = grid.texels_of(domain);
     Colours result(kept.size());
     for (std::size_t i = 0; i < kept.size(); ++i) set_entry(result.view(), i, colour_at(grid_colours, kept[i]));
     return result;
@@ -122,13 +118,13 @@ class Run {
             stage.samples = arriving_samples(environment_, domain, options_);
             stage.judged = texel_samples(judged, domain);
             const Samples texels = texel_samples(environment_, domain);
-            Colours irradiance = lat_long_irradiance(texels, k_judging_grid);
+            Colours irradiance = lat_long_irradiance(texels, k_judging_grid, domain);
             scale(irradiance, k_over_pi);
             stage.reference_irradiance_over_pi = restricted(irradiance, k_judging_grid, domain);
             if (options_.pictures) {
                 auto& pictures = pictures_.references[domain];
                 pictures.radiance = radiance_of(judged);
-                pictures.irradiance_over_pi = lat_long_irradiance(texels, k_irradiance_picture);
+                pictures.irradiance_over_pi = lat_long_irradiance(texels, k_irradiance_picture, domain);
                 scale(pictures.irradiance_over_pi, k_over_pi);
             }
         }
@@ -136,7 +132,6 @@ class Run {
     }
 
     void encode_all() {
-        const Directions picture_directions = k_radiance_picture.directions();
         tbb::parallel_for(std::size_t{0}, encodings_.size(), [&](std::size_t i) {
             Encoding& e = encodings_[i];
             const Stage& stage = stages_.at(e.run->basis->domain());
@@ -155,8 +150,8 @@ class Run {
             clamp_negative(radiance);
             e.radiance[Negative::clamped] = errors(radiance, judged.radiance(), weights);
             if (options_.pictures) {
-                e.picture = Colours(picture_directions.size());
-                evaluate(*e.run->basis, e.c, picture_directions, e.picture);
+                e.picture = Colours(k_radiance_picture.size());
+                evaluate(*e.run->basis, e.c, k_radiance_picture.directions(e.run->basis->domain()), e.picture);
             }
             step(0.5 / static_cast<double>(encodings_.size()));
         });
@@ -188,7 +183,7 @@ class Run {
             e.negative_share = negative;
         }
         if (options_.pictures) {
-            auto pictures = signed_irradiance_over_pi(*evaluator, encodings, k_irradiance_picture.directions());
+            auto pictures = signed_irradiance_over_pi(*evaluator, encodings, k_irradiance_picture.directions(reading.run->basis->domain()));
             for (std::size_t k = 0; k < encodings.size(); ++k)
                 reading.pictures[encodings[k]->encoder] = std::move(pictures[k]);
         }
@@ -294,10 +289,8 @@ Samples arriving_samples(const Image& environment, Domain domain, const Comparis
     if (options.sequence)
         return directed_samples(environment,
                                 uniform_directions(domain, *options.sequence, options.samples, options.seed), domain);
-    const Samples texels =
-        texel_samples(resize(environment, reduced_grid(lat_long(environment), options.most_texels)), domain);
-    std::mt19937 generator(options.seed);
-    return reordered(texels, shuffled_order(texels.size(), generator));
+    return shuffled_texel_samples(resize(environment, reduced_grid(lat_long(environment), options.most_texels)), domain,
+                                  options.seed);
 }
 
 Result<Comparison> compare(const Image& environment, const std::vector<CodecName>& codecs,
@@ -305,9 +298,9 @@ Result<Comparison> compare(const Image& environment, const std::vector<CodecName
     return Run(environment, options, progress)(codecs);
 }
 
-Colours lat_long_irradiance(SampleView samples, LatLong grid) {
+Colours lat_long_irradiance(SampleView samples, LatLong grid, Domain domain) {
     Colours out(grid.size());
-    const Directions normals = grid.directions();
+    const Directions normals = grid.directions(domain);
     // A grid of even width holds the antipode of each of its texels: compute the upper half only.
     const bool mirrored = grid.width % 2 == 0 && grid.height % 2 == 0 && (grid.size() / 2) % k_lanes == 0;
     const std::size_t computed = mirrored ? grid.size() / 2 : grid.size();

@@ -83,8 +83,8 @@ struct Comparison {
 [[nodiscard]] Result<Comparison> compare(const Image& environment, const std::vector<CodecName>& codecs,
                                          const ComparisonOptions& options = {}, const Progress& progress = {});
 
-/// Irradiance of `samples` at all texel centres of `grid`; antipodal normals share their work, since
+/// Irradiance of `samples` at all texel centres of `grid` as the domain sees them; antipodal normals share their work, since
 /// E(n) - E(-n) = n . integral of L w. Parallel.
-[[nodiscard]] Colours lat_long_irradiance(SampleView samples, LatLong grid);
+[[nodiscard]] Colours lat_long_irradiance(SampleView samples, LatLong grid, Domain domain = Domain::sphere);
 
 }  // namespace lobelia

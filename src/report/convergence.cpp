@@ -3,6 +3,8 @@
 
 #include <oneapi/tbb/parallel_for.h>
 
+#include <numeric>
+
 namespace lobelia {
 namespace {
 
@@ -12,18 +14,18 @@ std::vector<Rgb> encode(const std::string& encoder, const std::shared_ptr<const 
     return accumulator.solve();
 }
 
-/// `count` samples in random order: points of a sequence, or texels of the environment, drawn without replacement.
-Samples drawn_samples(const Image& environment, const Samples& texels, Domain domain, std::optional<Sequence> sequence,
-                      std::size_t count, std::uint32_t seed) {
-    std::mt19937 generator(seed);
-    if (sequence) {
-        const Samples points =
-            directed_samples(environment, uniform_directions(domain, *sequence, count, seed), domain);
-        return reordered(points, shuffled_order(count, generator));
+/// `count` samples: points of a sequence in random order, or the first texels of a spread order.
+Samples drawn_samples(const Image& environment, Domain domain, std::optional<Sequence> sequence, std::size_t count,
+                      std::uint32_t seed) {
+    if (!sequence) {
+        const Samples texels = shuffled_texel_samples(environment, domain, seed);
+        std::vector<std::uint32_t> first(std::min(count, texels.size()));
+        std::iota(first.begin(), first.end(), 0u);
+        return reordered(texels, first);
     }
-    auto order = shuffled_order(texels.size(), generator);
-    order.resize(std::min(count, order.size()));
-    return reordered(texels, order);
+    std::mt19937 generator(seed);
+    const Samples points = directed_samples(environment, uniform_directions(domain, *sequence, count, seed), domain);
+    return reordered(points, shuffled_order(count, generator));
 }
 
 /// Multiplies every radiance by a lognormal factor of mean 1.
@@ -61,7 +63,7 @@ void run_job(const Image& environment, const ConvergenceTask& task, std::optiona
         std::vector<double> squared(encoders.size());
         for (std::size_t r = 0; r < options.repetitions; ++r) {
             const auto seed = static_cast<std::uint32_t>(options.seed + 7919 * r);
-            const Samples samples = with_path_noise(drawn_samples(environment, texels, domain, sequence, count, seed),
+            const Samples samples = with_path_noise(drawn_samples(environment, domain, sequence, count, seed),
                                                     options.noise_variance, seed + 1);
             for (std::size_t e = 0; e < encoders.size(); ++e) {
                 Accumulator accumulator(encoders[e]);

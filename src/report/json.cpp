@@ -25,7 +25,7 @@ std::string_view domain_name(Domain domain) { return domain == Domain::sphere ? 
 
 json to_json(const Method& m, DirectionView judged) {
     const std::size_t floats = 3 * m.c.size();
-    const Vec3 worst = direction_at(judged, m.irradiance_over_pi.worst_index);
+    const Vec3 worst = world_from_domain(m.domain, direction_at(judged, m.irradiance_over_pi.worst_index));
     return {{"name", m.name.str()},
             {"basis", m.name.basis},
             {"encoder", m.name.encoder},

@@ -2,6 +2,7 @@
 #include "lobelia/encode/moments.h"
 
 #include <Eigen/Dense>
+#include <cmath>
 
 #include "lobelia/harmonics.h"
 #include "lobelia/kernels.h"
@@ -77,6 +78,7 @@ class MomentEncoder final : public Encoder {
             factor_.compute(gram_);
         } else if (has_prior()) {
             gram_ = as_matrix(b.gram(), b.size());
+            integrals_ = as_matrix(b.integrals(), 1);
         }
         if (is_joint()) irradiance_ = std::make_unique<IrradianceNorm>(b);
     }
@@ -100,12 +102,11 @@ class MomentEncoder final : public Encoder {
         for_each_part(samples, k_block_size, [&](SampleView block, std::size_t) {
             basis().values(block.directions(), rows.data());
             state[k_weight] += kernels::add_moments(rows.data(), n, block, moments);
-            state[k_count] += static_cast<float>(block.size);
+            add_header(state, block);
             if (has_gram()) kernels::add_gram(rows.data(), n, block, gram);
             if (is_joint()) {
                 harmonics_.values(block.directions(), rows.data());
                 kernels::add_moments(rows.data(), harmonics_.size(), block, harmonic_moments);
-                state[k_squared] += squared_radiance(block);
             }
         });
     }
@@ -130,8 +131,8 @@ class MomentEncoder final : public Encoder {
     }
 
   private:
-    /// State: sum of weights, number of samples, sum of w |v|^2 (joint), then moments, Gram, harmonic moments.
-    enum : std::size_t { k_weight, k_count, k_squared, k_header };
+    /// State: sums of w, w^2, w v (three) and w |v|^2, then moments, Gram, harmonic moments.
+    enum : std::size_t { k_weight, k_squared_weight, k_radiance, k_squared_radiance = k_radiance + 3, k_header };
 
     [[nodiscard]] bool is_joint() const {
         return solver_ == MomentSolver::joint || solver_ == MomentSolver::joint_non_negative;
@@ -148,13 +149,22 @@ class MomentEncoder final : public Encoder {
         return result;
     }
 
-    static float squared_radiance(SampleView block) {
-        float sum = 0;
+    void add_header(std::span<float> state, SampleView block) const {
+        if (!has_prior()) return;
+        float squared_weight = 0, squared_radiance = 0;
+        Rgb radiance;
         for (std::size_t j = 0; j < block.size; ++j) {
             const Rgb v = colour_at(block.radiance(), j);
-            sum += block.solid_angles()[j] * (v.r * v.r + v.g * v.g + v.b * v.b);
+            const float w = block.solid_angles()[j];
+            squared_weight += w * w;
+            radiance = radiance + v * w;
+            squared_radiance += w * (v.r * v.r + v.g * v.g + v.b * v.b);
         }
-        return sum;
+        state[k_squared_weight] += squared_weight;
+        state[k_radiance] += radiance.r;
+        state[k_radiance + 1] += radiance.g;
+        state[k_radiance + 2] += radiance.b;
+        state[k_squared_radiance] += squared_radiance;
     }
 
     [[nodiscard]] MatrixXd sampled_gram(std::span<const float> state, double normalise) const {
@@ -173,7 +183,10 @@ class MomentEncoder final : public Encoder {
             case MomentSolver::projection: return scale_ * m;
             case MomentSolver::analytic_gram: return factor_.solve(m);
             case MomentSolver::sampled_gram: return sampled_gram(state, normalise).ldlt().solve(m);
-            case MomentSolver::regularised: return blended_gram(state, normalise).ldlt().solve(m);
+            case MomentSolver::regularised: {
+                const Blend blend = blended(state, m, normalise);
+                return blend.gram.ldlt().solve(blend.m);
+            }
             case MomentSolver::non_negative: return solve_non_negative(sampled_gram(state, normalise), m);
             case MomentSolver::joint:
             case MomentSolver::joint_non_negative: return solve_joint(state, m, normalise);
@@ -181,19 +194,29 @@ class MomentEncoder final : public Encoder {
         return {};
     }
 
-    [[nodiscard]] MatrixXd blended_gram(std::span<const float> state, double normalise) const {
+    /// Normal equations that are good at every count: what was sampled, and a share k of what is known beforehand,
+    /// the exact Gram matrix and the moments of a constant environment with the sampled mean radiance. A constant
+    /// environment is then exact from the first sample on.
+    struct Blend {
+        MatrixXd gram, m;
+    };
+    [[nodiscard]] Blend blended(std::span<const float> state, const MatrixXd& m, double normalise) const {
+        // Unequal weights count as fewer samples: N = (sum w)^2 / sum w^2.
         const auto n = static_cast<double>(basis().size());
-        const double k = n / (state[k_count] + n);
-        return (1 - k) * sampled_gram(state, normalise) + k * gram_;
+        const double count = std::pow(static_cast<double>(state[k_weight]), 2) / state[k_squared_weight];
+        const double k = n / (count + n);
+        const MatrixXd mean = triples(state.subspan(k_radiance, 3)) / state[k_weight];
+        return {(1 - k) * sampled_gram(state, normalise) + k * gram_, (1 - k) * m + k * (integrals_ * mean)};
     }
 
     [[nodiscard]] MatrixXd solve_joint(std::span<const float> state, const MatrixXd& m, double normalise) const {
         const MatrixXd harmonic = normalise * triples(state.last(3 * harmonics_.size()));
-        const double radiance = normalise * state[k_squared];
+        const double radiance = normalise * state[k_squared_radiance];
         const double irradiance = (irradiance_->squared_cosine.asDiagonal() * harmonic.cwiseAbs2()).sum();
         const double w = irradiance > 0 ? options_.irradiance_weight * radiance / irradiance : 0;
-        const MatrixXd gram = blended_gram(state, normalise) + w * irradiance_->gram;
-        const MatrixXd target = m + w * (irradiance_->functions * harmonic);
+        const Blend blend = blended(state, m, normalise);
+        const MatrixXd gram = blend.gram + w * irradiance_->gram;
+        const MatrixXd target = blend.m + w * (irradiance_->functions * harmonic);
         return is_non_negative() ? solve_non_negative(gram, target) : gram.ldlt().solve(target);
     }
 
@@ -212,6 +235,7 @@ class MomentEncoder final : public Encoder {
     MomentOptions options_;
     double scale_ = 1;
     MatrixXd gram_;
+    Eigen::VectorXd integrals_;
     Eigen::LDLT<MatrixXd> factor_;
     harmonics::Harmonics harmonics_{k_irradiance_degree};
     std::unique_ptr<IrradianceNorm> irradiance_;

@@ -8,7 +8,8 @@ namespace lobelia {
 
 /// projection: c_i = s m_i, with one s such that a constant environment keeps its energy; exact for orthonormal bases.
 /// analytic_gram: G c = m with the exact Gram matrix. sampled_gram: with the sampled one, which is batch least squares.
-/// regularised: their blend (1 - k) sampled + k exact, k = n / (N + n), n coefficients, N samples: good at every count.
+/// regularised: their blend (1 - k) sampled + k exact, k = n / (N + n), n coefficients, N samples, and the moments
+/// blended with those of the constant environment of the sampled mean: good at every count.
 /// non_negative: batch least squares with c >= 0 per channel. joint, joint_non_negative: the least
 /// |fit - L|^2 / |L|^2 + w |E_fit - E|^2 / |E|^2, radiance and irradiance together.
 enum class MomentSolver {
