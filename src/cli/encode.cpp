@@ -1,4 +1,4 @@
-// lobelia encode and lobelia eval: coefficients for scripts, and what they give back.
+// lobelia encode, eval and reference: coefficients for scripts, what they give back, and what they should.
 #include <fmt/core.h>
 
 #include <filesystem>
@@ -34,13 +34,25 @@ Status encode_verb(const EncodeOptions& options) {
     return write_file_atomically(options.out, to_json(file).dump(1) + "\n");
 }
 
-struct EvalOptions {
-    std::string coefficients;
+/// Where something is evaluated, and the file it goes to.
+struct OutputOptions {
     std::string normals;
     std::string lat_long;
     std::string out;
     bool radiance = false;
+    double exposure = 0;
 };
+
+void add_output_options(CLI::App& command, OutputOptions& options) {
+    command.add_option("--normals", options.normals, "A text file of normals, \"x y z\" a line (normalised)");
+    command.add_option("--latlong", options.lat_long, "Normals of a latitude-longitude grid, WxH");
+    command.add_flag("--radiance", options.radiance, "Radiance in those directions instead of irradiance");
+    command.add_option("--exposure", options.exposure, "Of .png pictures [EV]; they show E / pi, or L")
+        ->check(CLI::Range(-32.0, 32.0))
+        ->capture_default_str();
+    command.add_option("-o,--output", options.out, "The file to write: .exr, .csv with x,y,z,r,g,b, or .png")
+        ->required();
+}
 
 /// Unit directions from a text file: "x y z" or "x,y,z" a line, normalised; # starts a comment.
 Result<Directions> read_normals(const std::string& path) {
@@ -66,6 +78,28 @@ Result<Directions> read_normals(const std::string& path) {
     return result;
 }
 
+/// Directions as the options name them, in the frame of a domain: a grid, or one row.
+struct Target {
+    LatLong grid;
+    Directions directions;
+};
+
+Result<Target> target_of(const OutputOptions& options, Domain domain) {
+    if (options.normals.empty() == options.lat_long.empty()) return Error{"give either --normals or --latlong"};
+    const auto extension = std::filesystem::path(options.out).extension();
+    if (extension != ".exr" && extension != ".csv" && extension != ".png")
+        return Error{options.out + ": the output's name must end in .exr, .csv or .png"};
+    if (!options.lat_long.empty()) {
+        const auto grid = parse_grid(options.lat_long);
+        if (!grid) return Error{"--latlong: " + grid.error().message};
+        return Target{*grid, grid->directions(domain)};
+    }
+    auto directions = read_normals(options.normals);
+    if (!directions) return directions.error();
+    const LatLong row{directions->size(), 1};
+    return Target{row, *std::move(directions)};
+}
+
 /// One line for each direction: x, y, z, r, g, b.
 std::string as_csv(DirectionView directions, ColourView values) {
     std::string text = "x,y,z,r,g,b\n";
@@ -77,42 +111,59 @@ std::string as_csv(DirectionView directions, ColourView values) {
     return text;
 }
 
-Status eval_verb(const EvalOptions& options) {
-    if (options.normals.empty() == options.lat_long.empty()) return Error{"give either --normals or --latlong"};
+Status write_values(const OutputOptions& options, const Target& target, const Colours& values) {
     const auto extension = std::filesystem::path(options.out).extension();
-    if (extension != ".exr" && extension != ".csv")
-        return Error{options.out + ": the output's name must end in .exr or .csv"};
+    if (extension == ".csv") return write_file_atomically(options.out, as_csv(target.directions, values));
+    Image image(target.grid.width, target.grid.height);
+    for (std::size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i] = colour_at(values.view(), i);
+    if (extension == ".exr") return write_exr(options.out, image);
+    const double shown = std::exp2(options.exposure) / (options.radiance ? 1 : k_pi);
+    return write_png(options.out, to_srgb(image, static_cast<float>(shown)));
+}
+
+struct EvalOptions {
+    std::string coefficients;
+    OutputOptions output;
+};
+
+Status eval_verb(const EvalOptions& options) {
     const auto text = read_text(options.coefficients);
     if (!text) return text.error();
     const auto file = coefficients_from_json(*text, options.coefficients);
     if (!file) return file.error();
-
-    // Find the directions: a grid of them, or one row.
-    LatLong grid;
-    Directions directions;
-    if (!options.lat_long.empty()) {
-        const auto parsed = parse_grid(options.lat_long);
-        if (!parsed) return Error{"--latlong: " + parsed.error().message};
-        grid = *parsed;
-        directions = grid.directions();
-    } else {
-        auto read = read_normals(options.normals);
-        if (!read) return read.error();
-        directions = *std::move(read);
-        grid = {directions.size(), 1};
-    }
-
     const auto codec = make_codec(file->codec.str());
     if (!codec) return codec.error();
-    Colours values(directions.size());
-    if (options.radiance)
-        codec->radiance(file->c, directions, values);
+    const auto target = target_of(options.output, codec->basis().domain());
+    if (!target) return target.error();
+    Colours values(target->directions.size());
+    if (options.output.radiance)
+        codec->radiance(file->c, target->directions, values);
     else
-        codec->irradiance(file->c, directions, values);
-    if (extension == ".csv") return write_file_atomically(options.out, as_csv(directions, values));
-    Image image(grid.width, grid.height);
-    for (std::size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i] = colour_at(values.view(), i);
-    return write_exr(options.out, image);
+        codec->irradiance(file->c, target->directions, values);
+    return write_values(options.output, *target, values);
+}
+
+struct ReferenceOptions {
+    EnvironmentOptions environment;
+    OutputOptions output;
+};
+
+Status reference_verb(const ReferenceOptions& options) {
+    const auto target = target_of(options.output, Domain::sphere);
+    if (!target) return target.error();
+    const auto environment = load(options.environment);
+    if (!environment) return environment.error();
+    Colours values(target->directions.size());
+    if (!options.output.radiance)
+        irradiance_sum(texel_samples(environment->image), target->directions, values);
+    else if (!options.output.lat_long.empty())
+        values = radiance_of(resize(environment->image, target->grid));
+    else
+        for (std::size_t i = 0; i < values.size(); ++i)
+            set_entry(values.view(), i,
+                      environment->image.pixels[lat_long(environment->image)
+                                                    .index(direction_at(target->directions, i))]);
+    return write_values(options.output, *target, values);
 }
 
 }  // namespace
@@ -132,11 +183,17 @@ Verb add_eval(CLI::App& app) {
     CLI::App* command =
         app.add_subcommand("eval", "Read coefficients as irradiance E [W/m^2] (not E / pi) or radiance [W/(m^2 sr)]");
     command->add_option("COEFFICIENTS", options->coefficients, "A file that lobelia encode wrote")->required();
-    command->add_option("--normals", options->normals, "A text file of normals, \"x y z\" a line (normalised)");
-    command->add_option("--latlong", options->lat_long, "Normals of a latitude-longitude grid, WxH");
-    command->add_flag("--radiance", options->radiance, "Radiance in those directions instead of irradiance");
-    command->add_option("-o,--output", options->out, "The file to write: .exr, or .csv with x,y,z,r,g,b")->required();
+    add_output_options(*command, options->output);
     return {command, [options] { return eval_verb(*options); }};
+}
+
+Verb add_reference(CLI::App& app) {
+    auto options = std::make_shared<ReferenceOptions>();
+    CLI::App* command = app.add_subcommand(
+        "reference", "Exact irradiance E [W/m^2] of an environment, summed over its texels; or its radiance");
+    add_environment_options(*command, options->environment);
+    add_output_options(*command, options->output);
+    return {command, [options] { return reference_verb(*options); }};
 }
 
 }  // namespace lobelia::cli

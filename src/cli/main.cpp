@@ -16,6 +16,7 @@ and measures how wrong each choice is.
   lobelia compare room.hdr --out report    the same on an environment of yours
   lobelia encode room.hdr --codec sh2/least-squares/convolution -o room.json
   lobelia eval room.json --latlong 64x32 -o irradiance.exr
+  lobelia reference room.hdr --latlong 64x32 -o exact.exr
   lobelia list                             the codecs
   lobelia study irradiance                 how good each irradiance formula is
 
@@ -34,7 +35,7 @@ int main(int argc, char** argv) {
     app.get_formatter()->column_width(36);
     const std::vector<lobelia::cli::Verb> verbs = {
         lobelia::cli::add_compare(app), lobelia::cli::add_encode(app), lobelia::cli::add_eval(app),
-        lobelia::cli::add_list(app), lobelia::cli::add_study(app)};
+        lobelia::cli::add_reference(app), lobelia::cli::add_list(app), lobelia::cli::add_study(app)};
 
     if (argc == 1) {
         fmt::print("{}", k_short_help);

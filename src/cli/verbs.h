@@ -21,6 +21,7 @@ struct Verb {
 [[nodiscard]] Verb add_compare(CLI::App& app);
 [[nodiscard]] Verb add_encode(CLI::App& app);
 [[nodiscard]] Verb add_eval(CLI::App& app);
+[[nodiscard]] Verb add_reference(CLI::App& app);
 [[nodiscard]] Verb add_list(CLI::App& app);
 [[nodiscard]] Verb add_study(CLI::App& app);
 

@@ -1,0 +1,170 @@
+// lobelia_bench: stage.codec.size, medians of several runs. "per_item" is the time of one sample, normal or texel.
+// Every basis, encoder and evaluator of the lists is measured; a new one appears here by itself.
+#include <benchmark/benchmark.h>
+
+#include "lobelia/sky.h"
+#include "bench/machine.h"
+#include "report/comparison.h"
+
+namespace lobelia::bench {
+namespace {
+
+constexpr std::size_t k_samples = 20000;
+constexpr std::size_t k_normals = 4096;
+constexpr LatLong k_grid{256, 128};
+
+void count_items(benchmark::State& state, std::size_t items_per_iteration) {
+    state.counters["per_item"] =
+        benchmark::Counter(static_cast<double>(items_per_iteration),
+                           benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+
+const Image& environment() {
+    static const Image image = sky(k_grid);
+    return image;
+}
+
+Samples samples_for(Domain domain, std::size_t count) {
+    return directed_samples(environment(), uniform_directions(domain, Sequence::sobol, count, 1), domain);
+}
+
+void machine_exp(benchmark::State& state) {
+    std::vector<float> x(4096), y(x.size());
+    for (std::size_t i = 0; i < x.size(); ++i) x[i] = -12.0f * static_cast<float>(i) / 4096;
+    for (auto _ : state) {
+        exp_all(x.data(), y.data(), x.size());
+        benchmark::DoNotOptimize(y.data());
+        benchmark::ClobberMemory();
+    }
+    count_items(state, x.size());
+}
+
+void machine_fma(benchmark::State& state) {
+    constexpr std::size_t count = 160 * 100;
+    for (auto _ : state) benchmark::DoNotOptimize(fma_chain(count));
+    count_items(state, count);
+}
+
+/// Function values of a basis or an evaluator's weights; an item is one value of one function.
+void values(benchmark::State& state, const FunctionSet& functions, Domain domain) {
+    const Directions directions = uniform_directions(domain, Sequence::sobol, k_normals, 1);
+    std::vector<float> rows(functions.size() * k_block_size);
+    for (auto _ : state)
+        for_each_part(directions.view(), k_block_size, [&](DirectionView block, std::size_t) {
+            functions.values(block, rows.data());
+            benchmark::DoNotOptimize(rows.data());
+            benchmark::ClobberMemory();
+        });
+    count_items(state, k_normals * functions.size());
+}
+
+void encode(benchmark::State& state, const std::shared_ptr<const Encoder>& encoder, std::size_t count) {
+    const Samples samples = samples_for(encoder->basis().domain(), count);
+    for (auto _ : state) {
+        Accumulator accumulator(encoder);
+        accumulator.add(samples);
+        benchmark::DoNotOptimize(accumulator.solve());
+    }
+    count_items(state, count);
+}
+
+void evaluate_irradiance(benchmark::State& state, const Basis& basis, const Evaluator& evaluator) {
+    const std::vector<Rgb> c(basis.size(), Rgb{1, 0.5f, 0.25f});
+    const Directions normals = uniform_directions(basis.domain(), Sequence::sobol, k_normals, 1);
+    Colours out(k_normals);
+    for (auto _ : state) {
+        irradiance(evaluator, c, normals, out);
+        benchmark::DoNotOptimize(out.channel(0));
+    }
+    count_items(state, k_normals);
+}
+
+/// An item is one texel seen from one normal.
+void exact_irradiance(benchmark::State& state) {
+    const Samples samples = texel_samples(environment());
+    const Directions normals = uniform_directions(Domain::sphere, Sequence::sobol, 256, 1);
+    Colours out(normals.size());
+    for (auto _ : state) irradiance_sum(samples, normals, out);
+    count_items(state, samples.size() * normals.size());
+}
+
+void reduce(benchmark::State& state) {
+    const Image large(2048, 1024);
+    for (auto _ : state) benchmark::DoNotOptimize(resize(large, {512, 256}));
+    count_items(state, large.pixels.size());
+}
+
+void whole_comparison(benchmark::State& state, bool pictures) {
+    ComparisonOptions options;
+    options.pictures = options.convergence = pictures;
+    for (auto _ : state) benchmark::DoNotOptimize(compare(environment(), all_codecs(), options));
+    count_items(state, all_codecs().size());
+}
+
+std::string named(const std::string& stage, const std::string& codec, std::size_t size) {
+    return stage + "." + codec + "." + std::to_string(size);
+}
+
+void register_basis(const std::shared_ptr<const Basis>& basis) {
+    const std::string name = basis->name();
+    benchmark::RegisterBenchmark(named("weights", name, k_normals).c_str(),
+                                 [basis](benchmark::State& s) { values(s, *basis, basis->domain()); });
+    for (const auto& encoder_name : encoder_names(*basis))
+        benchmark::RegisterBenchmark(named("encode", name + "/" + encoder_name, k_samples).c_str(),
+                                     [encoder = make_encoder(encoder_name, basis).value()](benchmark::State& s) {
+                                         encode(s, encoder, k_samples);
+                                     });
+    for (const auto& evaluator_name : basis->evaluator_names())
+        benchmark::RegisterBenchmark(
+            named("irradiance", name + "/" + evaluator_name, k_normals).c_str(),
+            [basis, evaluator = basis->evaluator(evaluator_name)](benchmark::State& s) {
+                evaluate_irradiance(s, *basis, *evaluator);
+            });
+}
+
+/// Cost against the number of samples and of coefficients.
+void register_scaling(const std::string& encoder_name) {
+    for (std::size_t count : {1250u, 5000u, 20000u, 80000u})
+        benchmark::RegisterBenchmark(named("scaling", "sg12/" + encoder_name, count).c_str(),
+                                     [=](benchmark::State& s) {
+                                         encode(s, make_encoder(encoder_name, make_basis("sg12").value()).value(), count);
+                                     });
+    for (const char* basis : {"sg6", "sg24", "sg48"})
+        benchmark::RegisterBenchmark(named("scaling", std::string(basis) + "/" + encoder_name, k_samples).c_str(),
+                                     [=](benchmark::State& s) {
+                                         encode(s, make_encoder(encoder_name, make_basis(basis).value()).value(),
+                                                k_samples);
+                                     });
+}
+
+void register_all() {
+    benchmark::RegisterBenchmark(named("machine", std::string("exp-") + target_name(), 4096).c_str(), machine_exp);
+    benchmark::RegisterBenchmark(named("machine", std::string("fma-") + target_name(), 16000).c_str(), machine_fma);
+    for (const auto& name : basis_names()) register_basis(make_basis(name).value());
+    register_scaling("moments");
+    register_scaling("progressive");
+    benchmark::RegisterBenchmark(named("reference", "irradiance", k_grid.size()).c_str(), exact_irradiance);
+    benchmark::RegisterBenchmark("resize.area.2048x1024", reduce);
+    for (bool pictures : {false, true})
+        benchmark::RegisterBenchmark(pictures ? "compare.all-with-pictures.256x128" : "compare.all.256x128",
+                                     [=](benchmark::State& s) { whole_comparison(s, pictures); })
+            ->UseRealTime()
+            ->Unit(benchmark::kMillisecond);
+}
+
+}  // namespace
+}  // namespace lobelia::bench
+
+int main(int argc, char** argv) {
+    // Medians of five, unless the command line says otherwise.
+    std::vector<char*> arguments(argv, argv + argc);
+    std::array<std::string, 3> defaults = {"--benchmark_repetitions=5", "--benchmark_report_aggregates_only=true",
+                                           "--benchmark_min_time=0.05"};
+    for (auto& argument : defaults) arguments.insert(arguments.begin() + 1, argument.data());
+    int count = static_cast<int>(arguments.size());
+    lobelia::bench::register_all();
+    benchmark::Initialize(&count, arguments.data());
+    if (benchmark::ReportUnrecognizedArguments(count, arguments.data())) return 2;
+    benchmark::RunSpecifiedBenchmarks();
+    return 0;
+}
