@@ -163,8 +163,9 @@ Result<std::shared_ptr<const Evaluator>> make_evaluator(std::string_view name, c
 Result<CodecName> parse_codec_name(std::string_view name) {
     // The basis may hold slashes itself (a file's path): split at the last two.
     const auto last = name.rfind('/');
-    const auto first = last == std::string_view::npos || last == 0 ? last : name.rfind('/', last - 1);
-    if (last == std::string_view::npos || first == std::string_view::npos) {
+    const auto none = std::string_view::npos;
+    const auto first = last == none || last == 0 ? none : name.rfind('/', last - 1);
+    if (first == none) {
         std::vector<std::string> known;
         for (const auto& codec : all_codecs()) known.push_back(codec.str());
         return Error{"codec " + quoted(name) + " is not of the form basis/encoder/evaluator" +

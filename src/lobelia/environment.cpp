@@ -181,7 +181,9 @@ LatLong reduced_grid(LatLong grid, std::size_t most_texels) {
     const auto scaled = [&](std::size_t n) {
         return std::max<std::size_t>(1, static_cast<std::size_t>(static_cast<double>(n) / factor));
     };
-    return {scaled(grid.width), std::min(scaled(grid.height), most_texels / scaled(grid.width))};
+    // A strip of one row or column cannot shrink in proportion: it loses length alone.
+    const std::size_t width = std::min(scaled(grid.width), most_texels);
+    return {width, std::min(scaled(grid.height), most_texels / width)};
 }
 
 std::vector<std::uint32_t> LatLong::texels_of(Domain domain) const {

@@ -66,9 +66,14 @@ struct Meder {
     static HWY_INLINE V eval(D d, std::span<const float> k, V c) {
         // max(0, cos) is about 32.7080 SG(.0315) - 31.7003 on the hemisphere; the first times the lobe is a lobe.
         const V sharpness = hn::Set(d, k[0]), cosine_sharpness = hn::Set(d, k[1]);
-        const V u = hn::Sqrt(hn::MulAdd(hn::Set(d, k[2]), c, hn::Set(d, k[3])));
+        // u^2 = (l1 - l2)^2 + 2 l1 l2 (1 + c), kept away from 0 where a lobe as wide as the cosine's faces it.
+        const V one = hn::Set(d, 1.0f), above = hn::Max(hn::Add(one, c), hn::Zero(d));
+        const V u = hn::Sqrt(hn::MulAdd(hn::Set(d, k[2]), above, hn::Set(d, k[3])));
         const V cosine = hn::Div(hn::MulAdd(sharpness, c, cosine_sharpness), u);
-        const V log_amplitude = hn::Sub(u, hn::Add(sharpness, cosine_sharpness));
+        // u - l1 - l2 = -2 l1 l2 (1 - c) / (u + l1 + l2), without a cancellation that 32.7 would blow up.
+        const V below = hn::Max(hn::Sub(one, c), hn::Zero(d));
+        const V log_amplitude =
+            hn::Neg(hn::Div(hn::Mul(hn::Set(d, k[2]), below), hn::Add(u, hn::Add(sharpness, cosine_sharpness))));
         const V product = hn::Mul(hn::Exp(d, log_amplitude), hemisphere(d, u, cosine));
         return hn::Sub(hn::Mul(hn::Set(d, 32.7080f), product),
                        hn::Mul(hn::Set(d, 31.7003f), hemisphere(d, sharpness, c)));
@@ -183,8 +188,8 @@ Constants hill_constants(double l) {
 }
 
 Constants meder_constants(double l) {
-    const double cosine_sharpness = 0.0315;
-    return {l, cosine_sharpness, 2 * l * cosine_sharpness, l * l + cosine_sharpness * cosine_sharpness};
+    const double cosine_sharpness = 0.0315, difference = l - cosine_sharpness;
+    return {l, cosine_sharpness, 2 * l * cosine_sharpness, std::max(difference * difference, 1e-12)};
 }
 
 Constants tokuyoshi_constants(double l) {
@@ -263,11 +268,14 @@ constexpr std::array k_list = {
     SgIrradianceInfo{SgIrradiance::hill, "hill", "sharpness 1 to 1000", 1, 1000, 0.042},
     SgIrradianceInfo{SgIrradiance::meder, "meder", "sharpness 0.1 to 1000", 0.1, 1000, 0.012},
     SgIrradianceInfo{SgIrradiance::tokuyoshi, "tokuyoshi", "sharpness 0.1 to 1000", 0.1, 1000, 1.3e-3},
-    SgIrradianceInfo{SgIrradiance::odd_exact, "odd-exact", "sharpness 0.1 to 1000", 0.1, 1000, 4.2e-4},
+    SgIrradianceInfo{SgIrradiance::odd_exact, "odd-exact", "sharpness 0.1 to 1000", 0.1, 1000, 4.3e-4},
     SgIrradianceInfo{SgIrradiance::odd_exact_2, "odd-exact-2", "sharpness 0.1 to 1000", 0.1, 1000, 5e-5},
     SgIrradianceInfo{SgIrradiance::polynomial, "polynomial", "sharpness 0.1 to 8", 0.1, 8, 1.7e-4},
     SgIrradianceInfo{SgIrradiance::exact, "exact", "sharpness 0.1 to 1000", 0.1, 1000, 2e-6},
 };
+
+/// Sharpness 0, or so little above it that float32 cannot tell the irradiance from pi.
+bool is_ambient(const gaussian::Lobe& lobe) { return lobe.sharpness < 1e-8f; }
 
 const SgIrradianceInfo& info(SgIrradiance kind) { return k_list[static_cast<std::size_t>(kind)]; }
 
@@ -311,7 +319,7 @@ SgIrradianceWeights::SgIrradianceWeights(SgIrradiance kind, std::vector<gaussian
         // Lobes mostly share one sharpness: then their constants are the same.
         if (i > 0 && lobes_[i].sharpness == lobes_[i - 1].sharpness) {
             constants_.push_back(constants_.back());
-        } else if (lobes_[i].sharpness == 0) {
+        } else if (is_ambient(lobes_[i])) {
             constants_.emplace_back();
         } else {
             const Constants k = constants(kind, lobes_[i].sharpness);
@@ -331,7 +339,7 @@ Accuracy SgIrradianceWeights::accuracy() const {
 void SgIrradianceWeights::values(DirectionView block, float* rows) const {
     for (std::size_t i = 0; i < lobes_.size(); ++i) {
         float* row = rows + i * k_block_size;
-        if (lobes_[i].sharpness == 0)
+        if (is_ambient(lobes_[i]))
             std::fill_n(row, block.size, static_cast<float>(k_pi));
         else
             HWY_DYNAMIC_DISPATCH(FillRow)(kind_, lobes_[i].axis, constants_[i], block, row);

@@ -72,6 +72,7 @@ Result<std::vector<Lobe>> parse_lobes(std::istream& in, const std::string& path)
         if (!(fields >> word)) continue;
         const std::string place = path + ":" + std::to_string(number) + ": ";
         if (word == "ambient") {
+            if (fields >> word) return Error{place + "nothing may follow \"ambient\""};
             lobes.push_back({{0, 0, 1}, 0});
         } else {
             std::istringstream values(line);
