@@ -76,7 +76,9 @@ Result<LatLong> parse_grid(const std::string& text) {
 Status prepare_folder(const std::filesystem::path& folder) {
     std::error_code code;
     std::filesystem::create_directories(folder, code);
-    if (code) return Error{folder.string() + ": cannot be made a folder for the report: " + code.message()};
+    if (code) return Error{folder.string() + ": cannot be made a folder: " + code.message()};
+    if (access(folder.c_str(), W_OK | X_OK) != 0)
+        return Error{folder.string() + ": cannot be written to: " + std::generic_category().message(errno)};
     return Done{};
 }
 

@@ -107,12 +107,11 @@ Status compare_verb(const Options& options) {
     const auto comparison = run(options, environment->image);
     if (!comparison) return comparison.error();
     const auto report = to_json(*comparison, environment->info);
-    const auto text = report.dump(1, ' ', false, nlohmann::json::error_handler_t::replace);
-    if (!options.json_only) {
-        const auto page = report_html(report, to_pictures(*comparison));
-        if (auto status = write_file_atomically(folder / "report.html", page); !status) return status;
-    }
-    if (auto status = write_file_atomically(folder / "report.json", text + "\n"); !status) return status;
+    const std::string text = report.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+    const std::string page = options.json_only ? "" : report_html(report, to_pictures(*comparison));
+    std::vector<FileContent> files = {{folder / "report.json", text}};
+    if (!options.json_only) files.push_back({folder / "report.html", page});
+    if (auto status = write_files_together(files); !status) return status;
     print_summary(*comparison);
     fmt::print("{}\n", (folder / (options.json_only ? "report.json" : "report.html")).string());
     return Done{};

@@ -1,4 +1,4 @@
-// lobelia list: the bases, encoders and evaluators, or every codec.
+// lobelia list: every codec, or what codecs are made of.
 #include <fmt/core.h>
 
 #include "cli/verbs.h"
@@ -11,11 +11,11 @@ void print_axes() {
     fmt::print("bases (one RGB coefficient per function)\n");
     for (const auto& name : basis_names())
         fmt::print("  {:<20} {}\n", name, make_basis(name).value()->description());
-    fmt::print("  {:<20} {}\n", "sg<N>, sg<N>a", "any number of spherical Gaussians on the sphere; a: and an ambient lobe");
-    fmt::print("  {:<20} {}\n", "sg<N>h", "hemispherical sets");
-    fmt::print("  {:<20} {}\n", "sg:FILE, sgh:FILE", "lobes from a file, a line \"x y z sharpness\" each");
+    for (const auto& [pattern, meaning] : basis_name_patterns()) fmt::print("  {:<20} {}\n", pattern, meaning);
     fmt::print("encoders\n");
     for (const auto& name : encoder_names()) fmt::print("  {}\n", name);
+    fmt::print("encoders for study, not in the product\n");
+    for (const auto& name : encoder_variant_names()) fmt::print("  {}\n", name);
     fmt::print("evaluators\n");
     std::vector<std::string> seen;
     for (const auto& name : basis_names()) {
@@ -27,21 +27,21 @@ void print_axes() {
             fmt::print("  {:<20} {}: error at most {}\n", evaluator, accuracy.range, accuracy.error);
         }
     }
-    fmt::print("A codec is one of each, basis/encoder/evaluator; lobelia list --codecs prints all {}.\n",
+    fmt::print("A codec is one of each, basis/encoder/evaluator; lobelia list prints all {} of the sensible product.\n",
                all_codecs().size());
 }
 
 }  // namespace
 
 Verb add_list(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("list", "Print the bases, encoders, evaluators, or all codecs");
-    auto codecs = std::make_shared<bool>(false);
-    command->add_flag("--codecs", *codecs, "Every codec, a line each");
-    return {command, [codecs]() -> Status {
-                if (*codecs)
-                    for (const auto& codec : all_codecs()) fmt::print("{}\n", codec.str());
-                else
+    CLI::App* command = app.add_subcommand("list", "Print the codecs, or what they are made of");
+    auto axes = std::make_shared<bool>(false);
+    command->add_flag("--axes", *axes, "The bases, encoders and evaluators with what they are, instead");
+    return {command, [axes]() -> Status {
+                if (*axes)
                     print_axes();
+                else
+                    for (const auto& codec : all_codecs()) fmt::print("{}\n", codec.str());
                 return Done{};
             }};
 }

@@ -17,7 +17,7 @@ and measures how wrong each choice is.
   lobelia encode room.hdr --codec sh2/least-squares/convolution -o room.json
   lobelia eval room.json --latlong 64x32 -o irradiance.exr
   lobelia reference room.hdr --latlong 64x32 -o exact.exr
-  lobelia list                             the codecs
+  lobelia list --axes                      bases, encoders and evaluators
   lobelia study irradiance                 how good each irradiance formula is
 
 lobelia -h tells more, lobelia VERB -h all of a verb's options.

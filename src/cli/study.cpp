@@ -7,17 +7,28 @@
 #include "cli/common.h"
 #include "cli/verbs.h"
 #include "io/write_file.h"
-#include "lobelia/bases/sg_study.h"
 #include "report/study_encoders.h"
 #include "report/study_page.h"
 
 namespace lobelia::cli {
 namespace {
 
+/// The first listed basis of each domain.
+std::vector<std::string> first_bases() {
+    std::vector<std::string> names;
+    for (Domain domain : {Domain::sphere, Domain::hemisphere})
+        for (const auto& name : basis_names())
+            if (make_basis(name).value()->domain() == domain) {
+                names.push_back(name);
+                break;
+            }
+    return names;
+}
+
 struct Options {
     std::string out = "lobelia-study";
     EnvironmentOptions environment;
-    std::vector<std::string> bases = {"sg12h", "sg12@4"};
+    std::vector<std::string> bases = first_bases();
     EncoderStudyOptions encoders;
 };
 
@@ -27,10 +38,9 @@ Status write_study(const Study& study, const std::filesystem::path& folder) {
     const auto page = study_html(study);
     if (!page) return page.error();
     const auto file = [&](const char* extension) { return folder / (study.name + extension); };
-    const std::string markdown = to_markdown(study);
-    if (auto status = write_file_atomically(file(".html"), *page); !status) return status;
-    if (auto status = write_file_atomically(file(".json"), to_json(study).dump(1) + "\n"); !status) return status;
-    if (auto status = write_file_atomically(file(".md"), markdown); !status) return status;
+    const std::string markdown = to_markdown(study), json = to_json(study).dump(1) + "\n";
+    const FileContent files[] = {{file(".html"), *page}, {file(".json"), json}, {file(".md"), markdown}};
+    if (auto status = write_files_together(files); !status) return status;
     fmt::print("{}\n{}\n", markdown, file(".html").string());
     return Done{};
 }
@@ -42,9 +52,12 @@ Verb add_study(CLI::App& app) {
     CLI::App* command = app.add_subcommand("study", "Measure formulae and encoders; write tables and graphs");
     command->require_subcommand(1);
 
-    CLI::App* irradiance = command->add_subcommand(
-        "irradiance", "Irradiance formulae of spherical Gaussians against the exact integral");
-    irradiance->add_option("--out", options->out, "Folder of the study")->capture_default_str();
+    std::vector<std::pair<CLI::App*, const StudyEntry*>> formulae;
+    for (const StudyEntry& entry : studies()) {
+        CLI::App* study = command->add_subcommand(std::string(entry.name), std::string(entry.description));
+        study->add_option("--out", options->out, "Folder of the study")->capture_default_str();
+        formulae.emplace_back(study, &entry);
+    }
 
     CLI::App* encoders =
         command->add_subcommand("encoders", "Encoders against the number of samples, with and without path noise");
@@ -60,7 +73,8 @@ Verb add_study(CLI::App& app) {
         ->capture_default_str();
 
     return {command, [=]() -> Status {
-                if (irradiance->parsed()) return write_study(study_sg_irradiance(), options->out);
+                for (const auto& [study, entry] : formulae)
+                    if (study->parsed()) return write_study(entry->run(), options->out);
                 const auto environment = load(options->environment);
                 if (!environment) return environment.error();
                 const auto study =

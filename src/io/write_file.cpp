@@ -12,6 +12,7 @@
 #include <string>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 namespace lobelia {
 
@@ -71,19 +72,38 @@ std::optional<Temporary> create_beside(const fs::path& path) {
     return std::nullopt;
 }
 
-Status write_beside_and_rename(const fs::path& path, std::span<const std::byte> bytes) {
+/// A file whose new content lies complete beside it, until `commit` renames it or the destructor removes it.
+class StagedFile {
+  public:
+    StagedFile(fs::path target, fs::path temporary) : target_(std::move(target)), temporary_(std::move(temporary)) {}
+    StagedFile(StagedFile&& other) noexcept
+        : target_(std::move(other.target_)), temporary_(std::exchange(other.temporary_, {})) {}
+    StagedFile& operator=(StagedFile&&) = delete;
+    ~StagedFile() {
+        if (!temporary_.empty()) ::unlink(temporary_.c_str());
+    }
+    [[nodiscard]] Status commit() {
+        if (::rename(temporary_.c_str(), target_.c_str()) != 0) return failure(target_, errno);
+        temporary_.clear();
+        return Done{};
+    }
+
+  private:
+    fs::path target_, temporary_;
+};
+
+Result<StagedFile> stage(const fs::path& path, std::span<const std::byte> bytes) {
     std::optional<Temporary> temporary = create_beside(path);
     if (!temporary) return failure(path, errno);
+    StagedFile staged(path, temporary->path);
     // Keep the permissions of the file that is replaced.
     struct stat old {};
     const bool replaces = ::stat(path.c_str(), &old) == 0;
     const bool done = (!replaces || ::fchmod(temporary->descriptor.get(), old.st_mode & 0777) == 0) &&
                       write_all(temporary->descriptor.get(), bytes) && ::fsync(temporary->descriptor.get()) == 0 &&
-                      temporary->descriptor.close() && ::rename(temporary->path.c_str(), path.c_str()) == 0;
-    if (done) return Done{};
-    const int code = errno;
-    ::unlink(temporary->path.c_str());
-    return failure(path, code);
+                      temporary->descriptor.close();
+    if (!done) return failure(path, errno);
+    return staged;
 }
 
 Status write_directly(const fs::path& path, std::span<const std::byte> bytes) {
@@ -117,7 +137,23 @@ Status write_file_atomically(const fs::path& path, std::span<const std::byte> by
     }
     const Result<fs::path> target = followed(path);
     if (!target) return target.error();
-    return write_beside_and_rename(*target, bytes);
+    auto staged = stage(*target, bytes);
+    return staged ? staged->commit() : staged.error();
+}
+
+Status write_files_together(std::span<const FileContent> files) {
+    std::vector<StagedFile> staged;
+    for (const auto& file : files) {
+        if (fs::is_directory(file.path)) return failure(file.path, EISDIR);
+        const Result<fs::path> target = followed(file.path);
+        if (!target) return target.error();
+        auto next = stage(*target, std::as_bytes(std::span(file.text)));
+        if (!next) return next.error();
+        staged.push_back(*std::move(next));
+    }
+    for (auto& file : staged)
+        if (auto status = file.commit(); !status) return status;
+    return Done{};
 }
 
 Status write_file_atomically(const fs::path& path, std::string_view text) {

@@ -16,4 +16,13 @@ namespace lobelia {
 [[nodiscard]] Status write_file_atomically(const std::filesystem::path& path, std::span<const std::byte> bytes);
 [[nodiscard]] Status write_file_atomically(const std::filesystem::path& path, std::string_view text);
 
+struct FileContent {
+    std::filesystem::path path;
+    std::string_view text;
+};
+
+/// Writes several files so that none changes unless all could be written: each is complete under its temporary name
+/// before the first is renamed.
+[[nodiscard]] Status write_files_together(std::span<const FileContent> files);
+
 }  // namespace lobelia

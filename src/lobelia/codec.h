@@ -5,6 +5,7 @@
 
 #include "lobelia/encode/encoder.h"
 #include "lobelia/result.h"
+#include "lobelia/study.h"
 
 namespace lobelia {
 
@@ -41,6 +42,11 @@ class Codec {
 
 /// The lists behind every codec (codecs.cpp holds them).
 [[nodiscard]] std::vector<std::string> basis_names();
+/// Names beyond the list that make_basis knows, and what they mean.
+struct NamePattern {
+    std::string_view pattern, meaning;
+};
+[[nodiscard]] std::vector<NamePattern> basis_name_patterns();
 [[nodiscard]] std::vector<std::string> encoder_names();
 /// Further encoders known by name: published variants that are only of interest in a study.
 [[nodiscard]] std::vector<std::string> encoder_variant_names();
@@ -60,6 +66,13 @@ class Codec {
 [[nodiscard]] Result<Codec> make_codec(std::string_view name);
 /// The parts of "basis/encoder/evaluator", unchecked but for their number.
 [[nodiscard]] Result<CodecName> parse_codec_name(std::string_view name);
+
+/// Studies of formulae that bases bring with them.
+struct StudyEntry {
+    std::string_view name, description;
+    Study (*run)();
+};
+[[nodiscard]] std::span<const StudyEntry> studies();
 
 /// The known names nearest to `name` by edit distance, nearest first, at most three, as " (did you mean ...?)"; empty
 /// where none is near.

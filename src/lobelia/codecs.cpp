@@ -3,6 +3,7 @@
 #include <array>
 #include <numeric>
 
+#include "lobelia/bases/sg_study.h"
 #include "lobelia/bases/spherical_gaussians.h"
 #include "lobelia/bases/spherical_harmonics.h"
 #include "lobelia/codec.h"
@@ -19,6 +20,18 @@ using EncoderPtr = std::shared_ptr<const Encoder>;
 constexpr std::array k_bases = {"sg12", "sg12h", "sh1", "sh2", "sh3", "sh4", "sh5", "sh6", "sh7", "sh8"};
 
 constexpr std::array k_families = {&SphericalGaussians::from_name, &SphericalHarmonics::from_name};
+
+constexpr std::array k_patterns = {
+    NamePattern{"sg<N>, sg<N>a", "N spherical Gaussians on the sphere, 1 to 512; a: and an ambient lobe"},
+    NamePattern{"sg<N>h", "N on the hemisphere"},
+    NamePattern{"sg<N>@S", "any of these with sharpness S, 0.01 to 10000, instead of their own"},
+    NamePattern{"sg:FILE, sgh:FILE", "lobes from a file, a line \"x y z sharpness\" or \"ambient\" each"},
+};
+
+constexpr std::array k_studies = {
+    StudyEntry{"irradiance", "Irradiance formulae of spherical Gaussians against the exact integral",
+               study_sg_irradiance},
+};
 
 enum class Needs { any_basis, non_negative_basis };
 enum class Listed { yes, no };
@@ -118,6 +131,10 @@ std::vector<std::string> encoder_names(const Basis& basis) {
     return names_where(
         [&](const EncoderEntry& entry) { return entry.listed == Listed::yes && suits(entry, basis); });
 }
+
+std::vector<NamePattern> basis_name_patterns() { return {k_patterns.begin(), k_patterns.end()}; }
+
+std::span<const StudyEntry> studies() { return k_studies; }
 
 std::string encoder_limit(std::string_view encoder) {
     for (const auto& entry : k_encoders)

@@ -14,7 +14,7 @@ class ConvolvedHarmonics final : public LinearEvaluator {
         return negative_ == Negative::clamped ? "convolution" : "convolution-signed";
     }
     [[nodiscard]] Negative negative() const override { return negative_; }
-    [[nodiscard]] Accuracy accuracy() const override { return {"every degree", "exact (1e-6 of float32 rounding)"}; }
+    [[nodiscard]] Accuracy accuracy() const override { return {"every degree", "1e-6 of the largest E (float32 rounding)"}; }
     [[nodiscard]] std::size_t size() const override { return harmonics_.size(); }
     void values(DirectionView block, float* rows) const override {
         harmonics_.values(block, rows);
