@@ -1,4 +1,5 @@
-// The report's page: it loads nothing, no string escapes from its script element, pictures keep their half floats.
+// The pages of reports and studies: they load nothing, no string escapes from its script element, pictures keep what
+// they hold.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -8,7 +9,10 @@
 #include <regex>
 #include <vector>
 
+#include "io/write_image.h"
 #include "report/html.h"
+#include "report/page/base64.h"
+#include "report/study_page.h"
 
 namespace lobelia {
 namespace {
@@ -101,8 +105,33 @@ TEST(Picture, PlanesGiveWhatPixelsGive) {
     EXPECT_EQ(from_planes.height, 2u);
 }
 
-TEST(ReportPage, LoadsNothing) {
-    const std::string html = report_html(small_report("sky.hdr"), {});
+/// Bytes of every value, in a line that has no period of three.
+std::string all_bytes(std::size_t count) {
+    std::string bytes;
+    for (std::size_t i = 0; i < count; ++i) bytes += static_cast<char>(i * 37 % 256);
+    return bytes;
+}
+
+Study small_study(const std::string& title) {
+    Study study;
+    study.name = "small";
+    study.title = title;
+    study.summary = "Of " + title;
+    study.tables = {{title, "note of " + title, {"encoder", title}, {{title, "0.5 / 0.25"}, {"moments", "1 / 2"}}}};
+    study.plots = {{title, "", "samples", "error", Study::Axis::logarithmic, Study::Axis::linear, {}}};
+    study.plots[0].series = {{"numeric integral", {1, 2, 4}, {0.5, 0, -1}}, {title, {1, 2}, {3, std::nan("")}}};
+    study.pictures = {{title, "sharpness 1, exact", Image(3, 2)}};
+    study.pictures[0].image.pixels[4] = {1, 0.5f, 0};
+    return study;
+}
+
+std::string page_of(const Study& study) {
+    const auto html = study_html(study);
+    EXPECT_TRUE(html);
+    return html ? *html : std::string();
+}
+
+void expect_loads_nothing(const std::string& html) {
     const std::regex load(R"re((\b(src|href)\s*=\s*["']|url\(\s*["']?|@import\s*["']?)\s*(https?:)?//)re");
     EXPECT_FALSE(std::regex_search(html, load));
     EXPECT_EQ(html.find("<link"), std::string::npos);
@@ -110,12 +139,28 @@ TEST(ReportPage, LoadsNothing) {
     EXPECT_NE(html.find("default-src 'none'"), std::string::npos);
 }
 
-TEST(ReportPage, FillsEveryMark) {
-    const std::string html = report_html(small_report("sky.hdr"), {});
-    for (const std::string mark : {"{{style}}", "{{scripts}}", "{{report}}", "{{pictures}}"})
-        EXPECT_EQ(html.find(mark), std::string::npos) << mark;
+/// Marks are lower-case names, perhaps of files.
+void expect_filled(const std::string& html) {
+    std::smatch mark;
+    EXPECT_FALSE(std::regex_search(html, mark, std::regex(R"(\{\{[a-z_]+(\.[a-z]+)?\}\})"))) << mark.str();
     EXPECT_EQ(html.substr(html.size() - 8), "</html>\n");
 }
+
+TEST(Base64, RoundTripsAndPads) {
+    EXPECT_EQ(base64(""), "");
+    EXPECT_EQ(base64("f"), "Zg==");
+    EXPECT_EQ(base64("fo"), "Zm8=");
+    EXPECT_EQ(base64("foobar"), "Zm9vYmFy");
+    for (const std::size_t count : {255u, 256u, 257u}) {
+        const std::string bytes = all_bytes(count), text = base64(bytes);
+        EXPECT_EQ(text.size() % 4, 0u);
+        const auto back = bytes_of_base64(text.substr(0, text.find('=')));
+        EXPECT_EQ(std::string(back.begin(), back.end()), bytes);
+    }
+}
+
+TEST(ReportPage, LoadsNothing) { expect_loads_nothing(report_html(small_report("sky.hdr"), {})); }
+TEST(ReportPage, FillsEveryMark) { expect_filled(report_html(small_report("sky.hdr"), {})); }
 
 TEST(ReportPage, NoNameEndsItsScriptElement) {
     const std::string name = "</script><script>alert(1)</script><!-- \"quoted\" \\ .hdr";
@@ -135,6 +180,51 @@ TEST(ReportPage, NoNameEndsItsScriptElement) {
 TEST(ReportPage, ReplacesBytesThatAreNotUtf8) {
     const std::string html = report_html(small_report("caf\xe9.hdr"), {});
     EXPECT_EQ(nlohmann::json::parse(script_element(html, "report-data"))["environment"]["name"], "caf\uFFFD.hdr");
+}
+
+TEST(StudyPage, LoadsNothing) { expect_loads_nothing(page_of(small_study("Lobes"))); }
+TEST(StudyPage, FillsEveryMark) { expect_filled(page_of(small_study("Lobes"))); }
+
+TEST(StudyPage, HoldsAllTablesAndSeries) {
+    const Study study = small_study("Lobes");
+    auto data = nlohmann::json::parse(script_element(page_of(study), "study-data"));
+    EXPECT_EQ(data["plots"][0]["series"][0]["name"], "numeric integral");
+    EXPECT_EQ(data["plots"][0]["series"][0]["y"], (std::vector<double>{0.5, 0, -1}));
+    EXPECT_TRUE(data["plots"][0]["series"][1]["y"][1].is_null());  // not a number
+    EXPECT_EQ(data["plots"][0]["x_axis"], "logarithmic");
+    // What is not of the page itself is what to_json() says, as JSON writes it.
+    data.erase("pictures"), data.erase("lobelia");
+    EXPECT_EQ(data, nlohmann::json::parse(to_json(study).dump()));
+}
+
+TEST(StudyPage, HoldsPicturesAsPng) {
+    const Study study = small_study("Lobes");
+    const auto data = nlohmann::json::parse(script_element(page_of(study), "study-data"));
+    const std::string source = data["pictures"][0]["source"], head = "data:image/png;base64,";
+    ASSERT_EQ(source.substr(0, head.size()), head);
+    const std::string text = source.substr(head.size());
+    const auto bytes = bytes_of_base64(text.substr(0, text.find('=')));
+    EXPECT_EQ(std::string(bytes.begin(), bytes.end()), *encode_png(to_srgb(study.pictures[0].image)));
+    EXPECT_FALSE(to_json(study).contains("pictures"));
+}
+
+TEST(StudyPage, NoTextEndsItsScriptElement) {
+    const std::string text = "</script><script>alert(1)</script><!-- \"quoted\" \\ {{study}} {{page.css}}";
+    const std::string html = page_of(small_study(text));
+    EXPECT_EQ(html.find("alert(1)</script>"), std::string::npos);
+    const auto data = nlohmann::json::parse(script_element(html, "study-data"));
+    EXPECT_EQ(data["title"], text);
+    EXPECT_EQ(data["tables"][0]["rows"][0][0], text);
+    EXPECT_EQ(data["plots"][0]["series"][1]["name"], text);
+    EXPECT_EQ(data["pictures"][0]["title"], text);
+}
+
+TEST(StudyPage, RefusesPicturesWithoutPixels) {
+    Study study = small_study("Lobes");
+    study.pictures[0].image = {};
+    const auto html = study_html(study);
+    ASSERT_FALSE(html);
+    EXPECT_NE(html.error().message.find("Lobes"), std::string::npos);
 }
 
 }  // namespace

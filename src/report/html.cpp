@@ -1,35 +1,17 @@
-// Fills the page's template with styles, scripts and data; encodes pictures.
+// The report as a page; pictures as half floats.
 #include "report/html.h"
 
-#include <array>
 #include <bit>
 #include <cassert>
 #include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "report/page/base64.h"
+#include "report/page/page.h"
+
 namespace lobelia {
 
-std::string_view page_file(std::string_view name);  // generated, src/report/page/CMakeLists.txt
-
 namespace {
-
-/// In this order: each uses what those before it define.
-constexpr std::array k_scripts = {"chart.js",  "elements.js", "data.js",   "colour.js", "draw.js",  "pictures.js",
-                                  "detail.js", "methods.js",  "charts.js", "plots.js",  "report.js"};
-
-/// The two base64 characters of every 12 bits.
-constexpr auto k_base64_pairs = [] {
-    constexpr std::string_view alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::array<std::array<char, 2>, 4096> pairs{};
-    for (std::size_t i = 0; i < pairs.size(); ++i) pairs[i] = {alphabet[i >> 6], alphabet[i & 63]};
-    return pairs;
-}();
-
-/// Writes three bytes, the first in the highest bits of `bytes`, as four characters.
-void write_base64(std::uint32_t bytes, char* out) {
-    const auto &first = k_base64_pairs[bytes >> 12], &second = k_base64_pairs[bytes & 0xfff];
-    out[0] = first[0], out[1] = first[1], out[2] = second[0], out[3] = second[1];
-}
 
 /// Writes a pixel's six bytes, little-endian halves, as eight characters; so no pixel ever needs padding.
 void write_pixel(Rgb pixel, char* out) {
@@ -43,20 +25,6 @@ Picture encode(std::size_t width, std::size_t height, const PixelAt& pixel_at) {
     Picture picture{width, height, std::string(width * height * 8, '\0')};
     for (std::size_t i = 0; i < width * height; ++i) write_pixel(pixel_at(i), picture.base64_half.data() + i * 8);
     return picture;
-}
-
-/// JSON text that is safe inside a script element: `<` occurs in strings only, where \u003c means the same.
-std::string script_safe(const nlohmann::json& value) {
-    const std::string text = value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-    std::string safe;
-    safe.reserve(text.size());
-    for (const char c : text) {
-        if (c == '<')
-            safe += "\\u003c";
-        else
-            safe += c;
-    }
-    return safe;
 }
 
 /// Appends JSON by hand: base64 needs no escapes, and 12 MB of it should be copied once.
@@ -113,12 +81,6 @@ std::size_t bytes_of(const PictureSet& set) {
     return total;
 }
 
-std::string scripts() {
-    std::string all;
-    for (const char* name : k_scripts) ((all += "<script>\n") += page_file(name)) += "</script>\n";
-    return all;
-}
-
 }  // namespace
 
 std::uint16_t half_from_float(float value) {
@@ -155,25 +117,16 @@ Picture encode_picture(const ColourView& pixels, std::size_t width, std::size_t 
 }
 
 std::string report_html(const nlohmann::json& report, const PictureSet& pictures) {
-    const std::string_view page = page_file("report.html");
-    const std::string all_scripts = scripts(), data = script_safe(report);
-    std::string html;
-    html.reserve(page.size() + page_file("report.css").size() + all_scripts.size() + data.size() + bytes_of(pictures) +
-                 4096);
-
-    // Copy the page, and put in place of each {{mark}} what it stands for.
-    std::size_t position = 0;
-    for (;;) {
-        const std::size_t open = page.find("{{", position), close = page.find("}}", open);
-        html += page.substr(position, open - position);
-        if (open == std::string_view::npos || close == std::string_view::npos) return html;
-        const std::string_view mark = page.substr(open + 2, close - open - 2);
-        if (mark == "style") html += page_file("report.css");
-        if (mark == "scripts") html += all_scripts;
-        if (mark == "report") html += data;
-        if (mark == "pictures") PictureWriter(html).write(pictures);
-        position = close + 2;
-    }
+    const std::string data = script_safe(report);
+    return filled_page("report.html", data.size() + bytes_of(pictures), [&](std::string_view mark, std::string& html) {
+        if (mark == "report")
+            html += data;
+        else if (mark == "pictures")
+            PictureWriter(html).write(pictures);
+        else
+            return false;
+        return true;
+    });
 }
 
 }  // namespace lobelia

@@ -33,7 +33,7 @@ struct PictureSet {
         Picture irradiance_over_pi;
     };
     std::map<std::string, Reference> references;        // by domain: "sphere", "hemisphere"
-    std::map<std::string, Picture> radiance;            // by "basis/encoder": it does not depend on the evaluator
+    std::map<std::string, Picture> radiance;            // by "basis/encoder": before any evaluator cuts it
     std::map<std::string, Picture> irradiance_over_pi;  // by the method's whole name, "basis/encoder/evaluator"
 };
 

@@ -3,6 +3,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include "io/write_image.h"
+#include "report/page/base64.h"
+#include "report/page/page.h"
+
 namespace lobelia {
 
 nlohmann::json to_json(const Study& study) {
@@ -31,10 +35,28 @@ nlohmann::json to_json(const Study& study) {
 
 std::string to_markdown(const Study& study) {
     std::string text = "## " + study.title + "\n\n" + study.summary + "\n";
-    for (const auto& table : study.tables) text += "\n" + to_markdown(table);
+    for (const auto& table : study.tables) (text += '\n') += to_markdown(table);
     return text;
 }
 
-Result<std::string> study_html(const Study& study) { return to_markdown(study); }
+Result<std::string> study_html(const Study& study) {
+    nlohmann::json data = to_json(study), pictures = nlohmann::json::array();
+    for (const auto& picture : study.pictures) {
+        const auto png = encode_png(to_srgb(picture.image));
+        if (!png) return Error{std::string("picture \"") + picture.title + "\": " + png.error().message};
+        pictures.push_back({{"title", picture.title},
+                            {"caption", picture.caption},
+                            {"width", picture.image.width},
+                            {"height", picture.image.height},
+                            {"source", "data:image/png;base64," + base64(*png)}});
+    }
+    data["pictures"] = std::move(pictures);
+    data["lobelia"] = LOBELIA_VERSION;
+    const std::string text = script_safe(data);
+    return filled_page("study.html", text.size(), [&](std::string_view mark, std::string& html) {
+        if (mark == "study") html += text;
+        return mark == "study";
+    });
+}
 
 }  // namespace lobelia

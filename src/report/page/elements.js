@@ -48,7 +48,6 @@ const share_text = (value) =>
 
 const signed_text = (value, digits) => (value < 0 ? "−" : "+") + Math.abs(value).toFixed(digits);
 const vector_text = (values, digits = 2) => values.map((x) => x.toFixed(digits).replace("-", "−")).join("  ");
-const reference_title = (domain) => (domains.length > 1 ? `Reference, ${domain}` : "Reference");
 
 /// A count, in groups of three digits.
 const count_text = (value) => (Number.isFinite(value) ? value.toLocaleString("en").replaceAll(",", "\u202f") : "–");

@@ -41,6 +41,8 @@ function sphere_frame(get, { domain, quantity, label }) {
     return frame;
 }
 
+const reference_title = (domain) => (domains.length > 1 ? `Reference, ${domain}` : "Reference");
+
 /// The picture, its error or the lit sphere of a method; of the reference where `method` is null.
 function frame_of(kind, domain, method) {
     const { quantity, form } = kind;
