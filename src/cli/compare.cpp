@@ -19,7 +19,7 @@ struct Options {
     std::vector<std::string> codecs, bases, encoders, evaluators;
     std::string recipe;
     bool json_only = false;
-    bool convergence = true;
+    bool no_convergence = false;
 };
 
 /// The codecs that the options name: those of --codec, or the list's (and any other basis named), filtered.
@@ -65,7 +65,7 @@ Result<Comparison> run(const Options& options, const Image& environment) {
     comparison.sequence = sequence_from_name(options.sampling.sequence);
     comparison.samples = options.sampling.samples;
     comparison.pictures = !options.json_only;
-    comparison.convergence = !options.json_only && options.convergence;
+    comparison.convergence = !options.json_only && !options.no_convergence;
     if (!options.recipe.empty())
         return run_recipe(options.recipe == "published" ? Recipe::published : Recipe::updated, environment, comparison,
                           progress_bar());
@@ -131,10 +131,10 @@ Verb add_compare(CLI::App& app) {
     command->add_option("--evaluator", options->evaluators, "Only these evaluators");
     command
         ->add_option("--recipe", options->recipe,
-                     "Reproduce a published table instead: published (2016) or updated (2018)")
+                     "Reproduce a published table instead: published (2018, first version) or updated (2018, corrected)")
         ->check(CLI::IsMember({"published", "updated"}));
     command->add_flag("--json-only", options->json_only, "Write report.json alone: no page, pictures or convergence");
-    command->add_flag("!--no-convergence", options->convergence, "Leave the convergence plots out");
+    command->add_flag("--no-convergence", options->no_convergence, "Leave the convergence plots out");
     return {command, [options] { return compare_verb(*options); }};
 }
 

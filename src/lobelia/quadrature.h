@@ -24,8 +24,8 @@ struct SphereRule {
 /// polynomials of degree 2 heights - 1, on the hemisphere for those of the same degree.
 [[nodiscard]] SphereRule product_rule(Domain domain, std::size_t heights);
 
-/// Integrals over the rule: G_ij = sum_q w_q f_i g_j, a size(f) x size(g) matrix row by row.
 class FunctionSet;
+/// Integrals over the rule: G_ij = sum_q w_q f_i g_j, a size(f) x size(g) matrix row by row.
 [[nodiscard]] std::vector<double> inner_products(const FunctionSet& f, const FunctionSet& g, const SphereRule& rule);
 
 }  // namespace lobelia

@@ -36,7 +36,7 @@ struct Study {
     std::vector<Picture> pictures;
 };
 
-/// Text of a small number for tables: two or three significant digits, as "3.1e-4" below 1e-3.
+/// Text of a small number for tables: two or three significant digits, as "3.1e-4" below 1e-2.
 [[nodiscard]] std::string table_number(double value, int digits = 2);
 
 /// A table as Markdown.

@@ -286,9 +286,14 @@ std::string sampling_name(std::optional<Sequence> sequence) {
 }
 
 Samples arriving_samples(const Image& environment, Domain domain, const ComparisonOptions& options) {
-    if (options.sequence)
-        return directed_samples(environment,
-                                uniform_directions(domain, *options.sequence, options.samples, options.seed), domain);
+    if (options.sequence) {
+        // Shuffle: encoders that learn as they go need samples without an order.
+        std::mt19937 generator(options.seed);
+        return reordered(directed_samples(environment,
+                                          uniform_directions(domain, *options.sequence, options.samples, options.seed),
+                                          domain),
+                         shuffled_order(options.samples, generator));
+    }
     return shuffled_texel_samples(resize(environment, reduced_grid(lat_long(environment), options.most_texels)), domain,
                                   options.seed);
 }

@@ -14,7 +14,7 @@ constexpr std::size_t k_sample_count = 20000;
 constexpr std::size_t k_reference_draws = 5000;
 constexpr auto k_over_pi = static_cast<float>(1 / k_pi);
 
-/// A recipe names its methods, as a table does; this list and codecs.cpp are the only places that do.
+/// A recipe names its methods, as a published table does: beside codecs.cpp no other file computes by name.
 constexpr const char* k_basis = "sg12";
 constexpr const char* k_evaluator = "hill";
 

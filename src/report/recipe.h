@@ -1,5 +1,5 @@
 // The two published comparisons on ennis.hdr, reproduced to the letter, with their noisy reference and their quirks.
-// Pettineo and Roughton 2016 (published), Roughton 2018 (updated).
+// Roughton 2018: the first version of the post (published) and its corrected one (updated).
 #pragma once
 
 #include "report/comparison.h"

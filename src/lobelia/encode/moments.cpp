@@ -18,13 +18,14 @@ Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::Ro
     return {values.data(), static_cast<Eigen::Index>(values.size() / columns), static_cast<Eigen::Index>(columns)};
 }
 
-/// Degree to which irradiance is followed in the joint norm: A_l^2 beyond it is below 4e-5 of A_0^2.
+/// Degree to which irradiance is followed in the joint norm: A_l^2 beyond it is below 7e-5 of A_0^2.
 constexpr std::size_t k_irradiance_degree = 6;
 
 /// What the joint norm needs to know of a basis: irradiance is diagonal in spherical harmonics.
 struct IrradianceNorm {
     MatrixXd gram;       ///< <E_i, E_j> over all normals
     MatrixXd functions;  ///< row i: A_l^2 times the harmonic coefficients of B_i
+    Eigen::VectorXd constant;  ///< harmonic coefficients of the constant 1 on the domain
     Eigen::VectorXd squared_cosine;
 
     explicit IrradianceNorm(const Basis& basis) {
@@ -36,15 +37,27 @@ struct IrradianceNorm {
                 squared_cosine(static_cast<Eigen::Index>(i)) = std::pow(harmonics::clamped_cosine(l), 2);
         functions = g * squared_cosine.asDiagonal();
         gram = functions * g.transpose();
+
+        const SphereRule rule = product_rule(basis.domain(), 16);
+        std::vector<float> rows(harmonics.size() * k_block_size);
+        constant = Eigen::VectorXd::Zero(squared_cosine.size());
+        for_each_part(rule.directions.view(), k_block_size, [&](DirectionView block, std::size_t begin) {
+            harmonics.values(block, rows.data());
+            for (std::size_t i = 0; i < harmonics.size(); ++i)
+                for (std::size_t j = 0; j < block.size; ++j)
+                    constant(static_cast<Eigen::Index>(i)) +=
+                        rule.weights[begin + j] * static_cast<double>(rows[i * k_block_size + j]);
+        });
     }
 
-    /// Harmonic coefficients of each basis function, with as many quadrature nodes as its own square needs.
+    /// Harmonic coefficients of each basis function, with as many quadrature nodes as its own square needs. On the
+    /// hemisphere too they are those of whole functions, since evaluators read them whole.
     static MatrixXd project(const Basis& basis, const harmonics::Harmonics& harmonics) {
         const Matrix gram = basis.gram();
         for (std::size_t heights = 32;; heights *= 2) {
-            const SphereRule rule = product_rule(basis.domain(), heights);
-            if (heights >= 512 || resolves(basis, gram, rule))
-                return as_matrix(inner_products(basis, harmonics, rule), harmonics.size());
+            if (heights < 512 && !resolves(basis, gram, product_rule(basis.domain(), heights))) continue;
+            const SphereRule sphere = product_rule(Domain::sphere, heights);
+            return as_matrix(inner_products(basis, harmonics, sphere), harmonics.size());
         }
     }
 
@@ -195,26 +208,31 @@ class MomentEncoder final : public Encoder {
     }
 
     /// Normal equations that are good at every count: what was sampled, and a share k of what is known beforehand,
-    /// the exact Gram matrix and the moments of a constant environment with the sampled mean radiance. A constant
-    /// environment is then exact from the first sample on.
+    /// the exact Gram matrix and the moments of a constant environment with the sampled mean radiance. Where constants
+    /// are in the span of the basis, a constant environment is then exact from the first sample on.
     struct Blend {
         MatrixXd gram, m;
+        double share;   ///< k
+        MatrixXd mean;  ///< radiance, 1 x 3
     };
     [[nodiscard]] Blend blended(std::span<const float> state, const MatrixXd& m, double normalise) const {
-        // Unequal weights count as fewer samples: N = (sum w)^2 / sum w^2.
+        // Unequal weights count as fewer samples: N = (sum w)^2 / sum w^2. The quadratic term lets k fall faster than the
+        // error of any sampling, 1 / N at best, so that it costs nothing where all is known; 8 leaves k = n / (N + n)
+        // nearly as it is where few samples are.
         const auto n = static_cast<double>(basis().size());
         const double count = std::pow(static_cast<double>(state[k_weight]), 2) / state[k_squared_weight];
-        const double k = n / (count + n);
+        const double k = n / (n + count + count * count / (8 * n));
         const MatrixXd mean = triples(state.subspan(k_radiance, 3)) / state[k_weight];
-        return {(1 - k) * sampled_gram(state, normalise) + k * gram_, (1 - k) * m + k * (integrals_ * mean)};
+        return {(1 - k) * sampled_gram(state, normalise) + k * gram_, (1 - k) * m + k * (integrals_ * mean), k, mean};
     }
 
     [[nodiscard]] MatrixXd solve_joint(std::span<const float> state, const MatrixXd& m, double normalise) const {
-        const MatrixXd harmonic = normalise * triples(state.last(3 * harmonics_.size()));
+        const Blend blend = blended(state, m, normalise);
+        const MatrixXd harmonic = (1 - blend.share) * normalise * triples(state.last(3 * harmonics_.size())) +
+                                  blend.share * irradiance_->constant * blend.mean;
         const double radiance = normalise * state[k_squared_radiance];
         const double irradiance = (irradiance_->squared_cosine.asDiagonal() * harmonic.cwiseAbs2()).sum();
         const double w = irradiance > 0 ? options_.irradiance_weight * radiance / irradiance : 0;
-        const Blend blend = blended(state, m, normalise);
         const MatrixXd gram = blend.gram + w * irradiance_->gram;
         const MatrixXd target = blend.m + w * (irradiance_->functions * harmonic);
         return is_non_negative() ? solve_non_negative(gram, target) : gram.ldlt().solve(target);

@@ -1,5 +1,5 @@
 // Encoders that hold an estimate and correct it with every sample: running averages and progressive least squares.
-// The running average (Pettineo and Roughton 2016), its corrected form (Roughton 2018, 2024) and the matrix gain (new).
+// The running average and its corrected form (Roughton 2018, 2020), and the matrix gain (new).
 #pragma once
 
 #include <optional>

@@ -66,7 +66,7 @@ function texel_writer(picture, quantity) {
     return (data, i, out, at) => write_colour(data[i], data[i + 1], data[i + 2], scale, curve, out, at);
 }
 
-/// One pixel for each texel; the browser does the scaling. Errors are shown only where `judged(u)`.
+/// One pixel for each texel; the browser does the scaling. Errors are shown only where `judged(v)`.
 function paint_lat_long(canvas, picture, quantity, judged) {
     canvas.width = picture.width;
     canvas.height = picture.height;
@@ -75,7 +75,7 @@ function paint_lat_long(canvas, picture, quantity, judged) {
     const write = texel_writer(picture, quantity);
     for (let i = 0; i < picture.width * picture.height; ++i) {
         write(picture.data, i * picture.channels, image.data, i * 4);
-        image.data[i * 4 + 3] = picture.channels > 1 || judged(((i % picture.width) + 0.5) / picture.width) ? 255 : 0;
+        image.data[i * 4 + 3] = picture.channels > 1 || judged((Math.trunc(i / picture.width) + 0.5) / picture.height) ? 255 : 0;
     }
     context.putImageData(image, 0, 0);
 }
@@ -128,15 +128,15 @@ function sample_picture({ width, height, channels, data }, u, v, out) {
     }
 }
 
-/// z > 0 is the outer quarters of a latitude-longitude picture.
-const judged_positions = (domain) => (domain === "hemisphere" ? (u) => u < 0.25 || u > 0.75 : () => true);
+/// A hemisphere sees what is above the horizon: the upper half of a latitude-longitude picture.
+const judged_positions = (domain) => (domain === "hemisphere" ? (v) => v < 0.5 : () => true);
 
 /// How far spheres of a domain are turned at 0 degrees, as a share of a full turn: the brightest side of the reference
-/// comes half left, so that the shading shows; a hemisphere shows what is judged, seen along -z.
+/// comes half left, so that the shading shows.
 function automatic_turn(domain) {
-    const picture = domain === "hemisphere" ? null : reference_picture(domain, "irradiance");
+    const picture = reference_picture(domain, "irradiance");
     if (!picture) return 0;
-    const equator = Math.floor(picture.height / 2) * picture.width;
+    const equator = Math.floor(picture.height / 2 - 1) * picture.width;
     const light = (x) => luminance(picture.data.subarray((equator + x) * 3, (equator + x) * 3 + 3));
     let brightest = 0;
     for (let x = 1; x < picture.width; ++x) if (light(x) > light(brightest)) brightest = x;
@@ -158,7 +158,7 @@ function paint_sphere(canvas, picture, quantity, domain) {
     for (let i = 0; i < size * size; ++i) {
         if (cover[i] === 0) continue;
         const turned = u[i] + turn - Math.floor(u[i] + turn);
-        if (judged(turned)) {
+        if (judged(v[i])) {
             sample_picture(picture, turned, v[i], value);
             write(value, 0, out, i * 4);
             out[i * 4 + 3] = cover[i] * 255;
