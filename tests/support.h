@@ -8,6 +8,7 @@
 #include <random>
 #include <vector>
 
+#include "lobelia/basis.h"
 #include "lobelia/environment.h"
 #include "lobelia/quadrature.h"
 #include "lobelia/sampling.h"
@@ -84,6 +85,22 @@ inline double distance(const std::vector<Rgb>& a, const std::vector<Rgb>& b) {
     std::vector<Rgb> d(a.size());
     for (std::size_t i = 0; i < a.size(); ++i) d[i] = a[i] - b[i];
     return norm(d);
+}
+/// |a - b|_G / |b|_G: the error of radiance over the domain, G the exact Gram matrix of the basis.
+inline double excess(const Basis& basis, const std::vector<Rgb>& a, const std::vector<Rgb>& b) {
+    const Matrix gram = basis.gram();
+    const auto squared = [&](const std::vector<Rgb>& v) {
+        double sum = 0;
+        for (std::size_t i = 0; i < v.size(); ++i)
+            for (std::size_t j = 0; j < v.size(); ++j)
+                sum += gram[i * v.size() + j] *
+                       (static_cast<double>(v[i].r) * v[j].r + static_cast<double>(v[i].g) * v[j].g +
+                        static_cast<double>(v[i].b) * v[j].b);
+        return sum;
+    };
+    std::vector<Rgb> difference(a.size());
+    for (std::size_t i = 0; i < a.size(); ++i) difference[i] = a[i] - b[i];
+    return std::sqrt(std::max(0.0, squared(difference)) / squared(b));
 }
 inline double largest_difference(ColourView a, ColourView b) {
     double largest = a.size == b.size ? 0 : HUGE_VAL;
