@@ -8,6 +8,7 @@
 #include <chrono>
 #include <fstream>
 #include <iterator>
+#include <thread>
 
 #include "lobelia/sky.h"
 
@@ -38,6 +39,7 @@ Result<LoadedEnvironment> load(const EnvironmentOptions& options) {
         sky_options.turbidity = options.turbidity;
         return LoadedEnvironment{sky(*grid, sky_options), {"sky", *grid, {}, 0}};
     }
+    allow_reader_threads(static_cast<int>(std::thread::hardware_concurrency()));
     auto loaded = read_environment(options.path, options.read);
     if (!loaded) return loaded.error();
     for (const auto& warning : loaded->warnings) fmt::print(stderr, "lobelia: warning: {}\n", warning);

@@ -9,6 +9,7 @@
 #include <OpenEXR/ImfPartType.h>
 #include <OpenEXR/ImfRgbaFile.h>
 #include <OpenEXR/ImfStandardAttributes.h>
+#include <OpenEXR/ImfThreading.h>
 #include <OpenEXR/ImfTileDescription.h>
 #include <fmt/format.h>
 
@@ -242,6 +243,8 @@ Result<LoadedImage> read_exr(ExrInput& in, std::string_view name, const ReadOpti
 }  // namespace lobelia::io
 
 namespace lobelia {
+
+void allow_reader_threads(int count) { Imf::setGlobalThreadCount(count); }
 
 Result<LoadedImage> read_exr(std::span<const std::byte> bytes, std::string_view name, const ReadOptions& options) {
     io::MemoryInput in(bytes, std::string(name));

@@ -51,9 +51,12 @@ struct LoadedImage {
 
 /// OpenEXR: RGB, luminance, or luminance with chroma, of the first part that has them; scan lines or tiles (level 0).
 /// Negative components of a file with lossy compression (B44, DWA) become 0 with a warning: it makes them of zeros.
-/// Decompression uses the threads that the application has given to OpenEXR (Imf::setGlobalThreadCount), 0 at first.
+/// Decompression uses the threads that the application has given to OpenEXR (allow_reader_threads), 0 at first.
 [[nodiscard]] Result<LoadedImage> read_exr(std::span<const std::byte> bytes, std::string_view name,
                                            const ReadOptions& options = {});
+
+/// Gives OpenEXR a pool of `count` threads for the whole process.
+void allow_reader_threads(int count);
 
 /// PNG, JPEG or BMP, decoded from sRGB; an error unless options.ldr.
 [[nodiscard]] Result<LoadedImage> read_ldr(std::span<const std::byte> bytes, std::string_view name,
