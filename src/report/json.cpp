@@ -123,9 +123,12 @@ json to_json(const CoefficientFile& file) {
 Result<CoefficientFile> coefficients_from_json(std::string_view text, const std::string& name) {
     const json content = json::parse(text, nullptr, false);
     if (content.is_discarded() || !content.is_object()) return Error{name + ": not a JSON object of coefficients"};
-    const auto member = [&](const char* key) { return content.contains(key) ? content[key] : json(); };
+    // By reference: copying what is nested a million deep would overflow the stack.
+    const auto member = [&, none = json()](const char* key) -> const json& {
+        return content.contains(key) ? content[key] : none;
+    };
 
-    const json format = member("lobelia_coefficients");
+    const json& format = member("lobelia_coefficients");
     if (!format.is_number_integer())
         return Error{name + ": no \"lobelia_coefficients\" version in it; is it from `lobelia encode`?"};
     if (format.get<long long>() != k_coefficient_format)
@@ -135,7 +138,7 @@ Result<CoefficientFile> coefficients_from_json(std::string_view text, const std:
     const auto codec = make_codec(member("codec").get<std::string>());
     if (!codec) return Error{name + ": " + codec.error().message};
 
-    const json list = member("coefficients");
+    const json& list = member("coefficients");
     const std::size_t expected = codec->basis().size();
     if (!list.is_array() || list.size() != expected)
         return Error{name + ": " + codec->name().basis + " has " + std::to_string(expected) +
