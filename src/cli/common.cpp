@@ -23,10 +23,10 @@ void add_environment_options(CLI::App& command, EnvironmentOptions& options) {
                      "Replace NaN, infinite and negative texels by 0 where they are otherwise refused");
     command.add_option("--sky-size", options.sky_size, "Texels of the embedded sky, WxH")->capture_default_str();
     command.add_option("--sun-elevation", options.sun_elevation, "Of the embedded sky [degrees]")
-        ->check(CLI::Range(1.0, 90.0))
+        ->check(number_in(1, 90))
         ->capture_default_str();
     command.add_option("--turbidity", options.turbidity, "Haze of the embedded sky")
-        ->check(CLI::Range(2.0, 10.0))
+        ->check(number_in(2, 10))
         ->capture_default_str();
 }
 
@@ -37,6 +37,7 @@ Result<LoadedEnvironment> load(const EnvironmentOptions& options) {
         SkyOptions sky_options;
         sky_options.sun_elevation = options.sun_elevation;
         sky_options.turbidity = options.turbidity;
+        if (const auto status = check(sky_options); !status) return status.error();
         return LoadedEnvironment{sky(*grid, sky_options), {"sky", *grid, {}, 0}};
     }
     allow_reader_threads(static_cast<int>(std::thread::hardware_concurrency()));
@@ -54,11 +55,28 @@ void add_sampling_options(CLI::App& command, SamplingOptions& options) {
     command.add_option("--sequence", options.sequence, "Where samples are taken; texels: each one once, shuffled")
         ->check(CLI::IsMember(names))
         ->capture_default_str();
-    command.add_option("--samples", options.samples, "How many, for a sequence other than texels")
-        ->check(CLI::Range(std::size_t{1}, std::size_t{100'000'000}))
-        ->capture_default_str();
+    command.add_option("--samples", options.samples, "How many, 1 to 100000000 (default: all texels, or 20000 of another sequence)")
+        ->check(CLI::Range(std::size_t{1}, std::size_t{100'000'000}));
     command.add_option("--seed", options.seed, "Of the sequence and the shuffle, 0 to 4294967295")
         ->capture_default_str();
+}
+
+ComparisonOptions comparison_options(const SamplingOptions& options) {
+    ComparisonOptions comparison;
+    comparison.sequence = sequence_from_name(options.sequence);
+    comparison.samples = options.samples;
+    comparison.seed = options.seed;
+    return comparison;
+}
+
+CLI::Validator number_in(double low, double high) {
+    const auto check = [low, high](const std::string& text) {
+        double value = 0;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+        const bool good = error == std::errc() && end == text.data() + text.size() && value >= low && value <= high;
+        return good ? std::string() : fmt::format("{} is not a number from {} to {}", text, low, high);
+    };
+    return CLI::Validator(check, fmt::format("FLOAT in [{} - {}]", low, high));
 }
 
 Result<LatLong> parse_grid(const std::string& text) {
@@ -100,8 +118,13 @@ Progress progress_bar() {
 }
 
 Result<std::string> read_text(const std::string& path) {
+    std::error_code code;
+    if (!std::filesystem::exists(path, code)) return Error{path + ": no such file"};
+    if (!std::filesystem::is_regular_file(path, code)) return Error{path + ": not a regular file"};
+    constexpr std::uintmax_t most = std::uintmax_t{64} << 20;
+    if (std::filesystem::file_size(path, code) > most) return Error{path + ": larger than 64 MiB"};
     std::ifstream file(path, std::ios::binary);
-    if (!file || std::filesystem::is_directory(path)) return Error{path + ": cannot be opened"};
+    if (!file) return Error{path + ": cannot be opened"};
     std::string text{std::istreambuf_iterator<char>(file), {}};
     if (file.bad()) return Error{path + ": cannot be read"};
     return text;

@@ -32,11 +32,17 @@ struct LoadedEnvironment {
 /// How samples are taken of it.
 struct SamplingOptions {
     std::string sequence = "texels";
-    std::size_t samples = 20000;
+    std::optional<std::size_t> samples;
     std::uint32_t seed = 1;
 };
 
 void add_sampling_options(CLI::App& command, SamplingOptions& options);
+
+/// The same as the comparison takes it.
+[[nodiscard]] ComparisonOptions comparison_options(const SamplingOptions& options);
+
+/// A check that a number lies in [low, high]; unlike CLI::Range it refuses NaN.
+[[nodiscard]] CLI::Validator number_in(double low, double high);
 
 /// "256x128" as a grid of at least 1 x 1 and at most 2^26 texels.
 [[nodiscard]] Result<LatLong> parse_grid(const std::string& text);
@@ -48,7 +54,7 @@ void add_sampling_options(CLI::App& command, SamplingOptions& options);
 /// A bar on stderr for work that lasts over a second, only where stderr is a terminal.
 [[nodiscard]] Progress progress_bar();
 
-/// The whole of a text file.
+/// The whole of a text file of at most 64 MiB.
 [[nodiscard]] Result<std::string> read_text(const std::string& path);
 
 }  // namespace lobelia::cli

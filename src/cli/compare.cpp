@@ -1,7 +1,9 @@
 // lobelia compare: every codec on an environment, as a page and a JSON file.
 #include <fmt/core.h>
 
+#include <cmath>
 #include <filesystem>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "cli/common.h"
@@ -42,7 +44,10 @@ Result<std::vector<CodecName>> chosen_codecs(const Options& options) {
             return Error{"unknown encoder \"" + name + "\"" + nearest_names(name, known_encoders)};
     std::vector<CodecName> chosen;
     std::vector<std::string> known_evaluators;
-    for (const auto& basis_name : options.bases.empty() ? basis_names() : options.bases) {
+    std::vector<std::string> bases;
+    for (const auto& name : options.bases.empty() ? basis_names() : options.bases)
+        if (std::find(bases.begin(), bases.end(), name) == bases.end()) bases.push_back(name);
+    for (const auto& basis_name : bases) {
         const auto basis = make_basis(basis_name);
         if (!basis) return basis.error();
         const auto evaluators = (*basis)->evaluator_names();
@@ -60,10 +65,7 @@ Result<std::vector<CodecName>> chosen_codecs(const Options& options) {
 }
 
 Result<Comparison> run(const Options& options, const Image& environment) {
-    ComparisonOptions comparison;
-    comparison.seed = options.sampling.seed;
-    comparison.sequence = sequence_from_name(options.sampling.sequence);
-    comparison.samples = options.sampling.samples;
+    ComparisonOptions comparison = comparison_options(options.sampling);
     comparison.pictures = !options.json_only;
     comparison.convergence = !options.json_only && !options.no_convergence;
     if (!options.recipe.empty())
@@ -80,7 +82,11 @@ void print_summary(const Comparison& comparison) {
     for (const auto& method : comparison.methods) ranked.push_back(&method);
     if (comparison.recipe.empty()) {
         std::stable_sort(ranked.begin(), ranked.end(), [](const Method* a, const Method* b) {
-            return a->irradiance_over_pi.rms < b->irradiance_over_pi.rms;
+            const auto rank = [](const Method& m) {
+                const double rms = m.irradiance_over_pi.rms;
+                return std::isnan(rms) ? std::numeric_limits<double>::infinity() : rms;
+            };
+            return rank(*a) < rank(*b);
         });
     }
     constexpr std::size_t most = 12;
@@ -125,14 +131,19 @@ Verb add_compare(CLI::App& app) {
     add_environment_options(*command, options->environment);
     add_sampling_options(*command, options->sampling);
     command->add_option("--out", options->out, "Folder of the report")->capture_default_str();
-    command->add_option("--codec", options->codecs, "Only these, as basis/encoder/evaluator (default: all of the list)");
-    command->add_option("--basis", options->bases, "Only these bases, listed or not (sg24, sg12a, sg:lobes.txt)");
-    command->add_option("--encoder", options->encoders, "Only these encoders");
-    command->add_option("--evaluator", options->evaluators, "Only these evaluators");
+    CLI::Option* codec =
+        command->add_option("--codec", options->codecs, "Only these, as basis/encoder/evaluator (default: all of the list)");
+    CLI::Option* basis = command->add_option("--basis", options->bases,
+                                             "Only these bases; also others than the listed, see lobelia list --axes");
+    CLI::Option* encoder = command->add_option("--encoder", options->encoders, "Only these encoders");
+    CLI::Option* evaluator = command->add_option("--evaluator", options->evaluators, "Only these evaluators");
+    for (CLI::Option* filter : {basis, encoder, evaluator}) codec->excludes(filter);
     command
         ->add_option("--recipe", options->recipe,
                      "Reproduce a published table instead: published (2018, first version) or updated (2018, corrected)")
-        ->check(CLI::IsMember({"published", "updated"}));
+        ->check(CLI::IsMember({"published", "updated"}))
+        ->excludes(codec, basis, encoder, evaluator, command->get_option("--sequence"),
+                   command->get_option("--samples"), command->get_option("--seed"));
     command->add_flag("--json-only", options->json_only, "Write report.json alone: no page, pictures or convergence");
     command->add_flag("--no-convergence", options->no_convergence, "Leave the convergence plots out");
     return {command, [options] { return compare_verb(*options); }};

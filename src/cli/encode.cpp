@@ -1,6 +1,7 @@
 // lobelia encode, eval and reference: coefficients for scripts, what they give back, and what they should.
 #include <fmt/core.h>
 
+#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -25,12 +26,12 @@ Status encode_verb(const EncodeOptions& options) {
     if (!codec) return codec.error();
     const auto environment = load(options.environment);
     if (!environment) return environment.error();
-    ComparisonOptions sampling;
-    sampling.sequence = sequence_from_name(options.sampling.sequence);
-    sampling.samples = options.sampling.samples;
-    sampling.seed = options.sampling.seed;
-    const Samples samples = arriving_samples(environment->image, codec->basis().domain(), sampling);
+    const Samples samples =
+        arriving_samples(environment->image, codec->basis().domain(), comparison_options(options.sampling));
     const CoefficientFile file{codec->name(), codec->encode(samples)};
+    for (const Rgb& c : file.c)
+        if (!std::isfinite(c.r + c.g + c.b))
+            return Error{options.codec + ": the coefficients of " + environment->info.name + " are not finite"};
     return write_file_atomically(options.out, to_json(file).dump(1) + "\n");
 }
 
@@ -48,7 +49,7 @@ void add_output_options(CLI::App& command, OutputOptions& options) {
     command.add_option("--latlong", options.lat_long, "Normals of a latitude-longitude grid, WxH");
     command.add_flag("--radiance", options.radiance, "Radiance in those directions instead of irradiance");
     command.add_option("--exposure", options.exposure, "Of .png pictures [EV]; they show E / pi, or L")
-        ->check(CLI::Range(-32.0, 32.0))
+        ->check(number_in(-32, 32))
         ->capture_default_str();
     command.add_option("-o,--output", options.out, "The file to write: .exr, .csv with x,y,z,r,g,b, or .png")
         ->required();
@@ -153,16 +154,16 @@ Status reference_verb(const ReferenceOptions& options) {
     if (!target) return target.error();
     const auto environment = load(options.environment);
     if (!environment) return environment.error();
+    const Image& image = environment->image;
+    if (!options.output.radiance) {
+        const Image reduced = resize(image, reduced_grid(lat_long(image), ComparisonOptions().most_texels));
+        return write_values(options.output, *target, exact_irradiance(texel_samples(reduced), target->directions));
+    }
+    if (!options.output.lat_long.empty())
+        return write_values(options.output, *target, radiance_of(resize(image, target->grid)));
     Colours values(target->directions.size());
-    if (!options.output.radiance)
-        irradiance_sum(texel_samples(environment->image), target->directions, values);
-    else if (!options.output.lat_long.empty())
-        values = radiance_of(resize(environment->image, target->grid));
-    else
-        for (std::size_t i = 0; i < values.size(); ++i)
-            set_entry(values.view(), i,
-                      environment->image.pixels[lat_long(environment->image)
-                                                    .index(direction_at(target->directions, i))]);
+    for (std::size_t i = 0; i < values.size(); ++i)
+        set_entry(values.view(), i, image.pixels[lat_long(image).index(direction_at(target->directions, i))]);
     return write_values(options.output, *target, values);
 }
 
@@ -190,7 +191,7 @@ Verb add_eval(CLI::App& app) {
 Verb add_reference(CLI::App& app) {
     auto options = std::make_shared<ReferenceOptions>();
     CLI::App* command = app.add_subcommand(
-        "reference", "Exact irradiance E [W/m^2] of an environment, summed over its texels; or its radiance");
+        "reference", "Exact irradiance E [W/m^2] of an environment, summed over its texels (above 131072, of the reduced one); or its radiance");
     add_environment_options(*command, options->environment);
     add_output_options(*command, options->output);
     return {command, [options] { return reference_verb(*options); }};

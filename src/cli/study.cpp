@@ -69,7 +69,7 @@ Verb add_study(CLI::App& app) {
         ->capture_default_str();
     encoders->add_option("--seed", options->encoders.seed, "Of all samples")->capture_default_str();
     encoders->add_option("--noise", options->encoders.noise_variance, "Variance of the path noise, 0 to 100")
-        ->check(CLI::Range(0.0, 100.0))
+        ->check(number_in(0, 100))
         ->capture_default_str();
 
     return {command, [=]() -> Status {

@@ -3,12 +3,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <optional>
 
 namespace lobelia::io {
 
 namespace {
+
+/// Sums of squares of more would leave float32; the sun has 1e7 W/(m^2 sr).
+constexpr float k_most_radiance = 1e15f;
 
 enum class Fault { none, nan, infinite, negative };
 
@@ -17,14 +21,14 @@ Fault fault_of(Rgb pixel) {
     Fault fault = Fault::none;
     for (const float c : components) {
         if (std::isnan(c)) return Fault::nan;
-        if (std::isinf(c)) fault = Fault::infinite;
+        if (c > k_most_radiance || c < -k_most_radiance) fault = Fault::infinite;
         if (c < 0 && fault == Fault::none) fault = Fault::negative;
     }
     return fault;
 }
 
 Rgb sanitized(Rgb pixel) {
-    const auto clean = [](float c) { return std::isfinite(c) && c > 0 ? c : 0.0f; };
+    const auto clean = [](float c) { return c > 0 && c <= k_most_radiance ? c : 0.0f; };
     return {clean(pixel.r), clean(pixel.g), clean(pixel.b)};
 }
 
@@ -49,9 +53,12 @@ Status check_size(std::string_view name, std::int64_t width, std::int64_t height
 }
 
 void clip_negatives(LoadedImage& loaded, std::string_view cause) {
+    // Rounding is small beside what is there; more than that is a fault of the file.
+    float largest = 0;
+    for (const Rgb& pixel : loaded.image.pixels) largest = std::max({largest, pixel.r, pixel.g, pixel.b});
     std::size_t clipped = 0;
     for (Rgb& pixel : loaded.image.pixels) {
-        if (fault_of(pixel) != Fault::negative) continue;
+        if (fault_of(pixel) != Fault::negative || std::min({pixel.r, pixel.g, pixel.b}) < -0.01f * largest) continue;
         pixel = sanitized(pixel);
         ++clipped;
     }
@@ -76,10 +83,13 @@ Result<LoadedImage> inspected(LoadedImage loaded, std::string_view name, const R
     // Refuse the image with the first place, unless they were replaced.
     if (first && !options.sanitize)
         return Error{fmt::format(
-            "{}: {} NaN, {} infinite and {} negative pixels, the first at x = {}, y = {}; pass "
+            "{}: {} NaN, {} infinite (or above 1e15) and {} negative pixels, the first at x = {}, y = {}; pass "
             "--sanitize to replace them by 0",
             name, bad.nan, bad.infinite, bad.negative, *first % loaded.image.width, *first / loaded.image.width)};
     loaded.sanitized = bad;
+    if (first)
+        loaded.warnings.push_back(fmt::format("{} NaN, {} infinite and {} negative pixels were replaced by 0", bad.nan,
+                                              bad.infinite, bad.negative));
 
     // Warn of a shape that no latitude-longitude map has.
     if (loaded.image.width != 2 * loaded.image.height)

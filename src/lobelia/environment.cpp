@@ -243,4 +243,9 @@ void irradiance_sum(SampleView samples, DirectionView normals, MutableColourView
     kernels::irradiance_sum(samples, normals, out);
 }
 
+void irradiance_sums(SampleView samples, DirectionView normals, MutableColourView out, MutableColourView opposite) {
+    assert(normals.size == out.size && normals.size == opposite.size);
+    kernels::irradiance_sums(samples, normals, out, opposite);
+}
+
 }  // namespace lobelia

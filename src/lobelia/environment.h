@@ -74,5 +74,7 @@ struct LatLong {
 
 /// Exact irradiance E(n) = sum_j L_j omega_j max(0, n . d_j) [W/m^2] of `samples` at each normal.
 void irradiance_sum(SampleView samples, DirectionView normals, MutableColourView out);
+/// The same with E(-n) in `opposite`, for less than the two apart.
+void irradiance_sums(SampleView samples, DirectionView normals, MutableColourView out, MutableColourView opposite);
 
 }  // namespace lobelia

@@ -1,7 +1,8 @@
 // The vectorised inner loops that every basis and encoder shares, compiled for each vector width by Highway.
 #include "lobelia/kernels.h"
 
-#include <vector>
+#include <cstddef>
+#include <type_traits>
 
 #include "lobelia/basis.h"
 
@@ -39,36 +40,43 @@ HWY_INLINE void store(D d, V v, float* row, std::size_t j, std::size_t size) {
 /// Samples whose flux (radiance times solid angle) stays in the first-level cache beside their directions.
 constexpr std::size_t k_flux_part = 1024;
 
-/// Adds to out[0..Count) the irradiance of one part of the samples at `Count` normals.
-template <std::size_t Count>
+/// Adds to out[first ..) the irradiance of one part of the samples at `Count` normals, and to `opposite`, unless that is
+/// null, the irradiance at the normals turned round.
+template <std::size_t Count, class Opposite>
 void add_irradiance(DirectionView d_s, const float (*flux)[k_flux_part], DirectionView normals, std::size_t first,
-                    MutableColourView out) {
+                    MutableColourView out, Opposite opposite) {
+    constexpr bool both = !std::is_same_v<Opposite, std::nullptr_t>;
     const D d;
-    V sum[Count][3], n[Count][3];
+    V front[Count][3], back[Count][3], n[Count][3];
     for (std::size_t i = 0; i < Count; ++i)
         for (std::size_t k = 0; k < 3; ++k) {
-            sum[i][k] = hn::Zero(d);
+            front[i][k] = back[i][k] = hn::Zero(d);
             n[i][k] = hn::Set(d, normals.channel(k)[first + i]);
         }
     for (std::size_t j = 0; j < d_s.size; j += hn::Lanes(d)) {
         const V x = hn::LoadU(d, d_s.channel(0) + j), y = hn::LoadU(d, d_s.channel(1) + j),
                 z = hn::LoadU(d, d_s.channel(2) + j);
-        const V r = hn::Load(d, flux[0] + j), g = hn::Load(d, flux[1] + j), b = hn::Load(d, flux[2] + j);
+        const V colour[3] = {hn::Load(d, flux[0] + j), hn::Load(d, flux[1] + j), hn::Load(d, flux[2] + j)};
         for (std::size_t i = 0; i < Count; ++i) {
             const V cosine = hn::MulAdd(n[i][0], x, hn::MulAdd(n[i][1], y, hn::Mul(n[i][2], z)));
-            const V clamped = hn::Max(cosine, hn::Zero(d));
-            sum[i][0] = hn::MulAdd(clamped, r, sum[i][0]);
-            sum[i][1] = hn::MulAdd(clamped, g, sum[i][1]);
-            sum[i][2] = hn::MulAdd(clamped, b, sum[i][2]);
+            const V towards = hn::Max(cosine, hn::Zero(d));
+            for (std::size_t k = 0; k < 3; ++k) front[i][k] = hn::MulAdd(towards, colour[k], front[i][k]);
+            if constexpr (both) {
+                const V away = hn::Max(hn::Neg(cosine), hn::Zero(d));
+                for (std::size_t k = 0; k < 3; ++k) back[i][k] = hn::MulAdd(away, colour[k], back[i][k]);
+            }
         }
     }
     for (std::size_t i = 0; i < Count; ++i)
-        for (std::size_t k = 0; k < 3; ++k) out.channel(k)[first + i] += reduce(d, sum[i][k]);
+        for (std::size_t k = 0; k < 3; ++k) {
+            out.channel(k)[first + i] += reduce(d, front[i][k]);
+            if constexpr (both) opposite.channel(k)[first + i] += reduce(d, back[i][k]);
+        }
 }
 
-void IrradianceSum(SampleView samples, DirectionView normals, MutableColourView out) {
+template <std::size_t Count, class Opposite>
+void irradiance_sum(SampleView samples, DirectionView normals, MutableColourView out, Opposite opposite) {
     const D d;
-    for (std::size_t k = 0; k < 3; ++k) std::fill_n(out.channel(k), out.size, 0.0f);
     for_each_part(samples, k_flux_part, [&](SampleView part, std::size_t) {
         // Multiply radiance by solid angle once, zero past the end.
         alignas(64) float flux[3][k_flux_part];
@@ -79,11 +87,25 @@ void IrradianceSum(SampleView samples, DirectionView normals, MutableColourView 
                           flux[k] + j);
         }
 
-        // Visit the normals four at a time: each loaded sample then serves four sums.
+        // Visit several normals at a time: each loaded sample then serves several sums.
         std::size_t i = 0;
-        for (; i + 4 <= normals.size; i += 4) add_irradiance<4>(part.directions(), flux, normals, i, out);
-        for (; i < normals.size; ++i) add_irradiance<1>(part.directions(), flux, normals, i, out);
+        for (; i + Count <= normals.size; i += Count)
+            add_irradiance<Count>(part.directions(), flux, normals, i, out, opposite);
+        for (; i < normals.size; ++i) add_irradiance<1>(part.directions(), flux, normals, i, out, opposite);
     });
+}
+
+void IrradianceSum(SampleView samples, DirectionView normals, MutableColourView out) {
+    for (std::size_t k = 0; k < 3; ++k) std::fill_n(out.channel(k), out.size, 0.0f);
+    irradiance_sum<4>(samples, normals, out, nullptr);
+}
+
+void IrradianceSums(SampleView samples, DirectionView normals, MutableColourView out, MutableColourView opposite) {
+    for (std::size_t k = 0; k < 3; ++k) {
+        std::fill_n(out.channel(k), out.size, 0.0f);
+        std::fill_n(opposite.channel(k), opposite.size, 0.0f);
+    }
+    irradiance_sum<2>(samples, normals, out, opposite);
 }
 
 float AddMoments(const float* rows, std::size_t count, SampleView block, float* sums) {
@@ -238,6 +260,7 @@ HWY_AFTER_NAMESPACE();
 namespace lobelia::kernels {
 
 HWY_EXPORT(IrradianceSum);
+HWY_EXPORT(IrradianceSums);
 HWY_EXPORT(AddMoments);
 HWY_EXPORT(AddGram);
 HWY_EXPORT(Combine);
@@ -248,6 +271,9 @@ HWY_EXPORT(MatrixGain);
 
 void irradiance_sum(SampleView samples, DirectionView normals, MutableColourView out) {
     HWY_DYNAMIC_DISPATCH(IrradianceSum)(samples, normals, out);
+}
+void irradiance_sums(SampleView samples, DirectionView normals, MutableColourView out, MutableColourView opposite) {
+    HWY_DYNAMIC_DISPATCH(IrradianceSums)(samples, normals, out, opposite);
 }
 float add_moments(const float* rows, std::size_t count, SampleView block, float* sums) {
     return HWY_DYNAMIC_DISPATCH(AddMoments)(rows, count, block, sums);

@@ -12,6 +12,9 @@ namespace lobelia::kernels {
 /// out_j = sum_s L_s omega_s max(0, n_j . d_s).
 void irradiance_sum(SampleView samples, DirectionView normals, MutableColourView out);
 
+/// The same, and at the normals turned round too: opposite_j is the irradiance at -n_j.
+void irradiance_sums(SampleView samples, DirectionView normals, MutableColourView out, MutableColourView opposite);
+
 /// sums[3 i + c] += sum_j omega_j row_i[j] v_c[j], for `count` rows; returns sum_j omega_j.
 float add_moments(const float* rows, std::size_t count, SampleView block, float* sums);
 

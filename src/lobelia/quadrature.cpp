@@ -45,6 +45,32 @@ SphereRule product_rule(Domain domain, std::size_t heights) {
     return rule;
 }
 
+namespace {
+
+/// Sum over the rule's points of weight times `of(value)`, for each function.
+template <class Of>
+std::vector<double> summed(const FunctionSet& f, const SphereRule& rule, const Of& of) {
+    std::vector<double> sums(f.size());
+    std::vector<float> rows(f.size() * k_block_size);
+    for_each_part(rule.directions.view(), k_block_size, [&](DirectionView block, std::size_t begin) {
+        f.values(block, rows.data());
+        for (std::size_t i = 0; i < f.size(); ++i)
+            for (std::size_t j = 0; j < block.size; ++j)
+                sums[i] += rule.weights[begin + j] * of(static_cast<double>(rows[i * k_block_size + j]));
+    });
+    return sums;
+}
+
+}  // namespace
+
+std::vector<double> integrals(const FunctionSet& f, const SphereRule& rule) {
+    return summed(f, rule, [](double value) { return value; });
+}
+
+std::vector<double> integrals_of_squares(const FunctionSet& f, const SphereRule& rule) {
+    return summed(f, rule, [](double value) { return value * value; });
+}
+
 std::vector<double> inner_products(const FunctionSet& f, const FunctionSet& g, const SphereRule& rule) {
     std::vector<double> result(f.size() * g.size());
     std::vector<float> f_rows(f.size() * k_block_size), g_rows(g.size() * k_block_size);

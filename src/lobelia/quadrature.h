@@ -27,5 +27,8 @@ struct SphereRule {
 class FunctionSet;
 /// Integrals over the rule: G_ij = sum_q w_q f_i g_j, a size(f) x size(g) matrix row by row.
 [[nodiscard]] std::vector<double> inner_products(const FunctionSet& f, const FunctionSet& g, const SphereRule& rule);
+/// Integral over the rule of each function, and of each function's square.
+[[nodiscard]] std::vector<double> integrals(const FunctionSet& f, const SphereRule& rule);
+[[nodiscard]] std::vector<double> integrals_of_squares(const FunctionSet& f, const SphereRule& rule);
 
 }  // namespace lobelia

@@ -195,6 +195,13 @@ Samples reordered(SampleView samples, std::span<const std::uint32_t> order) {
     return Samples(std::move(result));
 }
 
+Samples first(SampleView samples, std::size_t count) {
+    const std::size_t kept = std::min(count, samples.size);
+    Planes<7> result(kept);
+    for (std::size_t k = 0; k < 7; ++k) std::copy_n(samples.channel(k), kept, result.channel(k));
+    return Samples(std::move(result));
+}
+
 AliasTable::AliasTable(std::span<const float> weights)
     : probability_(weights.size()), threshold_(weights.size(), 1.0f), alias_(weights.size()) {
     // Normalise, then scale so that the mean is 1.

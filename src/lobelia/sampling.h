@@ -74,13 +74,16 @@ struct CosineHemisphere {
 /// Sample order[i] of `samples` at place i.
 [[nodiscard]] Samples reordered(SampleView samples, std::span<const std::uint32_t> order);
 
+/// The first `count` samples, or all where there are fewer.
+[[nodiscard]] Samples first(SampleView samples, std::size_t count);
+
 /// Draws an index in proportion to its weight in constant time (alias method, Vose 1991).
 class AliasTable {
   public:
     /// `weights` >= 0, not all zero, in float32 throughout.
     explicit AliasTable(std::span<const float> weights);
 
-    /// The column floor(a * size) where b is below its threshold, else its alias; a, b in [0, 1).
+    /// The column floor(a * size) where b is at most its threshold, else its alias; a, b in [0, 1).
     [[nodiscard]] std::size_t sample(Point2 p) const;
     /// The column `i` if u <= its threshold, else its alias.
     [[nodiscard]] std::size_t choose(std::size_t i, double u) const;

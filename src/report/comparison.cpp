@@ -32,6 +32,8 @@ void scale(const MutableColourView& colours, float factor) {
 
 constexpr auto k_over_pi = static_cast<float>(1 / k_pi);
 
+constexpr std::size_t k_normals_at_once = 512;
+
 /// The entries of a whole grid that a domain's texels are, in their order.
 Colours restricted(const Colours& grid_colours, LatLong grid, Domain domain) {
     const auto kept = grid.texels_of(domain);
@@ -128,7 +130,7 @@ class Run {
                 scale(pictures.irradiance_over_pi, k_over_pi);
             }
         }
-        step(0.2);
+        step(0.1);
     }
 
     void encode_all() {
@@ -153,14 +155,14 @@ class Run {
                 e.picture = Colours(k_radiance_picture.size());
                 evaluate(*e.run->basis, e.c, k_radiance_picture.directions(e.run->basis->domain()), e.picture);
             }
-            step(0.5 / static_cast<double>(encodings_.size()));
+            step(0.3 / static_cast<double>(encodings_.size()));
         });
     }
 
     void read_all() {
         tbb::parallel_for(std::size_t{0}, readings_.size(), [&](std::size_t i) {
             read(readings_[i]);
-            step(0.3 / static_cast<double>(readings_.size()));
+            step(0.2 / static_cast<double>(readings_.size()));
         });
     }
 
@@ -215,7 +217,7 @@ class Run {
         Comparison result;
         result.reference = "exact sum over texels";
         result.sequence = sampling_name(options_.sequence);
-        result.samples = options_.sequence ? options_.samples : environment_.pixels.size();
+        result.samples = stages_.begin()->second.samples.size();
         result.seed = options_.seed;
         result.grid = lat_long(environment_);
         result.mean_radiance = mean_radiance(environment_);
@@ -238,12 +240,13 @@ class Run {
         return result;
     }
 
-    [[nodiscard]] std::vector<Convergence> converge() const {
+    [[nodiscard]] std::vector<Convergence> converge() {
         std::vector<ConvergenceTask> tasks;
         for (const BasisRun& run : runs_)
             if (run.basis->size() <= k_most_converging_size)
                 tasks.push_back({run.basis, run.encoders, {k_sequences.begin(), k_sequences.end()}});
-        return measure_convergence(environment_, tasks, {.seed = options_.seed});
+        return measure_convergence(environment_, tasks, {.seed = options_.seed},
+                                   [&](double done) { report(k_before_convergence + done * (1 - k_before_convergence)); });
     }
 
     [[nodiscard]] const Encoding& encoding(const CodecName& name) const {
@@ -257,12 +260,18 @@ class Run {
         });
     }
 
+    /// Counts a share of the work before the convergence plots, all of which is k_before_convergence.
     void step(double share) {
-        if (!progress_) return;
         const std::scoped_lock lock(progress_mutex_);
-        done_ += share;
-        progress_(std::min(done_, 1.0));
+        done_ += options_.convergence ? share : share / k_before_convergence;
+        if (progress_) progress_(std::min(done_, 1.0));
     }
+    void report(double done) {
+        const std::scoped_lock lock(progress_mutex_);
+        if (progress_) progress_(done);
+    }
+
+    static constexpr double k_before_convergence = 0.6;
 
     /// Bases beyond this many coefficients are left out of the convergence plots: they take long and show the same.
     static constexpr std::size_t k_most_converging_size = 16;
@@ -286,16 +295,16 @@ std::string sampling_name(std::optional<Sequence> sequence) {
 }
 
 Samples arriving_samples(const Image& environment, Domain domain, const ComparisonOptions& options) {
-    if (options.sequence) {
-        // Shuffle: encoders that learn as they go need samples without an order.
-        std::mt19937 generator(options.seed);
-        return reordered(directed_samples(environment,
-                                          uniform_directions(domain, *options.sequence, options.samples, options.seed),
-                                          domain),
-                         shuffled_order(options.samples, generator));
+    const Image reduced = resize(environment, reduced_grid(lat_long(environment), options.most_texels));
+    if (!options.sequence) {
+        const Samples texels = shuffled_texel_samples(reduced, domain, options.seed);
+        return first(texels, options.samples.value_or(texels.size()));
     }
-    return shuffled_texel_samples(resize(environment, reduced_grid(lat_long(environment), options.most_texels)), domain,
-                                  options.seed);
+    // Shuffle, with a seed of its own: encoders that learn as they go need samples without an order.
+    const std::size_t count = options.samples.value_or(k_default_sequence_samples);
+    const Directions directions = uniform_directions(domain, *options.sequence, count, options.seed);
+    std::mt19937 generator(~options.seed);
+    return reordered(directed_samples(reduced, directions, domain), shuffled_order(count, generator));
 }
 
 Result<Comparison> compare(const Image& environment, const std::vector<CodecName>& codecs,
@@ -303,33 +312,31 @@ Result<Comparison> compare(const Image& environment, const std::vector<CodecName
     return Run(environment, options, progress)(codecs);
 }
 
-Colours lat_long_irradiance(SampleView samples, LatLong grid, Domain domain) {
-    Colours out(grid.size());
-    const Directions normals = grid.directions(domain);
-    // A grid of even width holds the antipode of each of its texels: compute the upper half only.
-    const bool mirrored = grid.width % 2 == 0 && grid.height % 2 == 0 && (grid.size() / 2) % k_lanes == 0;
-    const std::size_t computed = mirrored ? grid.size() / 2 : grid.size();
-    constexpr std::size_t part = 512;
-    tbb::parallel_for(std::size_t{0}, (computed + part - 1) / part, [&](std::size_t i) {
-        const std::size_t begin = i * part, count = std::min(part, computed - begin);
-        irradiance_sum(samples, normals.view().part(begin, count), out.view().part(begin, count));
+Colours exact_irradiance(SampleView samples, DirectionView normals) {
+    Colours out(normals.size);
+    tbb::parallel_for(std::size_t{0}, (normals.size + k_normals_at_once - 1) / k_normals_at_once, [&](std::size_t i) {
+        const std::size_t begin = i * k_normals_at_once, count = std::min(k_normals_at_once, normals.size - begin);
+        irradiance_sum(samples, normals.part(begin, count), out.view().part(begin, count));
     });
-    if (!mirrored) return out;
+    return out;
+}
 
-    // The vector flux F = integral of L w, per channel.
-    std::array<std::array<double, 3>, 3> flux{};
-    for (std::size_t i = 0; i < samples.size; ++i)
-        for (std::size_t k = 0; k < 3; ++k)
-            for (std::size_t a = 0; a < 3; ++a)
-                flux[k][a] += static_cast<double>(samples.radiance().channel(k)[i]) * samples.solid_angles()[i] *
-                              samples.directions().channel(a)[i];
-    for (std::size_t i = 0; i < computed; ++i) {
+Colours lat_long_irradiance(SampleView samples, LatLong grid, Domain domain) {
+    const Directions normals = grid.directions(domain);
+    if (grid.width % 2 != 0 || grid.height % 2 != 0) return exact_irradiance(samples, normals);
+
+    // A grid of even size holds the antipode of each of its texels: visit the upper half only.
+    const std::size_t half = grid.size() / 2;
+    Colours out(grid.size()), opposite(half);
+    tbb::parallel_for(std::size_t{0}, (half + k_normals_at_once - 1) / k_normals_at_once, [&](std::size_t i) {
+        const std::size_t begin = i * k_normals_at_once, count = std::min(k_normals_at_once, half - begin);
+        irradiance_sums(samples, normals.view().part(begin, count), out.view().part(begin, count),
+                        opposite.view().part(begin, count));
+    });
+    for (std::size_t i = 0; i < half; ++i) {
         const std::size_t x = i % grid.width, y = i / grid.width;
         const std::size_t antipode = (grid.height - 1 - y) * grid.width + (x + grid.width / 2) % grid.width;
-        const Vec3 n = direction_at(normals, i);
-        for (std::size_t k = 0; k < 3; ++k)
-            out.channel(k)[antipode] = static_cast<float>(
-                out.channel(k)[i] - (flux[k][0] * n.x + flux[k][1] * n.y + flux[k][2] * n.z));
+        set_entry(out.view(), antipode, colour_at(opposite.view(), i));
     }
     return out;
 }

@@ -17,7 +17,7 @@ using Progress = std::function<void(double)>;
 
 struct ComparisonOptions {
     std::optional<Sequence> sequence;   ///< none: every texel is one sample, once
-    std::size_t samples = 20000;        ///< for a sequence
+    std::optional<std::size_t> samples;  ///< none: all texels, or 20,000 of a sequence; else that many
     std::uint32_t seed = 1;             ///< of the sequence and of the shuffle
     std::size_t most_texels = 131072;   ///< larger environments are reduced first, energy kept
     bool pictures = true;               ///< evaluate the pictures of a page too
@@ -57,6 +57,8 @@ struct ComparisonPictures {
     std::map<std::string, Colours> irradiance_over_pi;  ///< by the whole name
 };
 
+inline constexpr std::size_t k_default_sequence_samples = 20000;
+
 /// Grids: errors are judged on the first; pictures of radiance and of irradiance have the others.
 inline constexpr LatLong k_judging_grid{256, 128};
 inline constexpr LatLong k_radiance_picture{128, 64};
@@ -76,15 +78,18 @@ struct Comparison {
 };
 
 /// Samples of a domain as the options ask for them, in the order in which encoders see them; the environment is
-/// reduced to options.most_texels first where every texel is a sample.
+/// reduced to options.most_texels first.
 [[nodiscard]] Samples arriving_samples(const Image& environment, Domain domain, const ComparisonOptions& options);
 
 /// Runs the codecs; each name is to be known (make_codec). Parallel, with the same figures at any thread count.
 [[nodiscard]] Result<Comparison> compare(const Image& environment, const std::vector<CodecName>& codecs,
                                          const ComparisonOptions& options = {}, const Progress& progress = {});
 
-/// Irradiance of `samples` at all texel centres of `grid` as the domain sees them; antipodal normals share their work, since
-/// E(n) - E(-n) = n . integral of L w. Parallel.
+/// Exact irradiance of `samples` at each normal, as irradiance_sum(); parallel.
+[[nodiscard]] Colours exact_irradiance(SampleView samples, DirectionView normals);
+
+/// Irradiance of `samples` at all texel centres of `grid` as the domain sees them; antipodal normals share their work.
+/// Parallel.
 [[nodiscard]] Colours lat_long_irradiance(SampleView samples, LatLong grid, Domain domain = Domain::sphere);
 
 }  // namespace lobelia

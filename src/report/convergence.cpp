@@ -3,7 +3,7 @@
 
 #include <oneapi/tbb/parallel_for.h>
 
-#include <numeric>
+#include <mutex>
 
 namespace lobelia {
 namespace {
@@ -18,12 +18,9 @@ std::vector<Rgb> encode(const std::string& encoder, const std::shared_ptr<const 
 Samples drawn_samples(const Image& environment, Domain domain, std::optional<Sequence> sequence, std::size_t count,
                       std::uint32_t seed) {
     if (!sequence) {
-        const Samples texels = shuffled_texel_samples(environment, domain, seed);
-        std::vector<std::uint32_t> first(std::min(count, texels.size()));
-        std::iota(first.begin(), first.end(), 0u);
-        return reordered(texels, first);
+        return first(shuffled_texel_samples(environment, domain, seed), count);
     }
-    std::mt19937 generator(seed);
+    std::mt19937 generator(~seed);
     const Samples points = directed_samples(environment, uniform_directions(domain, *sequence, count, seed), domain);
     return reordered(points, shuffled_order(count, generator));
 }
@@ -91,7 +88,7 @@ double squared_norm(const Matrix& gram, std::span<const Rgb> b) {
 }
 
 std::vector<Convergence> measure_convergence(const Image& environment, const std::vector<ConvergenceTask>& tasks,
-                                             const ConvergenceOptions& options) {
+                                             const ConvergenceOptions& options, const Progress& progress) {
     // List what is to be measured: a job for each basis and kind of sampling, with a result for each encoder.
     std::vector<Convergence> results;
     struct Job {
@@ -107,9 +104,15 @@ std::vector<Convergence> measure_convergence(const Image& environment, const std
                 results.push_back({task.basis->name(), encoder, sampling_name(sequence), options.counts, {}, 0});
         }
 
+    std::mutex mutex;
+    std::size_t done = 0;
     tbb::parallel_for(std::size_t{0}, jobs.size(), [&](std::size_t i) {
         const Job& job = jobs[i];
-        run_job(environment, *job.task, job.sequence, options, std::span(results).subspan(job.first, job.task->encoders.size()));
+        run_job(environment, *job.task, job.sequence, options,
+                std::span(results).subspan(job.first, job.task->encoders.size()));
+        const std::scoped_lock lock(mutex);
+        ++done;
+        if (progress) progress(static_cast<double>(done) / static_cast<double>(jobs.size()));
     });
     return results;
 }

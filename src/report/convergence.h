@@ -27,6 +27,7 @@ struct ConvergenceOptions {
 /// their solid angle. Parallel, with the same figures at any thread count.
 [[nodiscard]] std::vector<Convergence> measure_convergence(const Image& environment,
                                                            const std::vector<ConvergenceTask>& tasks,
-                                                           const ConvergenceOptions& options = {});
+                                                           const ConvergenceOptions& options = {},
+                                                           const Progress& progress = {});
 
 }  // namespace lobelia

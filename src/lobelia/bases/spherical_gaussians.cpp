@@ -149,12 +149,16 @@ Result<std::shared_ptr<const Basis>> SphericalGaussians::from_name(std::string_v
     if (!name.starts_with("sg")) return none;
     std::size_t count = 0;
     const auto [end, error] = std::from_chars(name.data() + 2, name.data() + name.size(), count);
-    if (error != std::errc() || count < 1 || count > k_most_lobes) return none;
+    if (error == std::errc::invalid_argument) return none;
+    if (error != std::errc() || count < 1 || count > k_most_lobes)
+        return Error{"basis \"" + std::string(name) + "\": the number of lobes must be 1 to " +
+                     std::to_string(k_most_lobes)};
     std::string_view kind = name.substr(static_cast<std::size_t>(end - name.data()));
     std::optional<float> sharpness;
     if (const auto at = kind.find('@'); at != std::string_view::npos) {
         const auto parsed = parse_sharpness(kind.substr(at + 1));
-        if (!parsed) return none;
+        if (!parsed)
+            return Error{"basis \"" + std::string(name) + "\": the sharpness after @ must be 0.01 to 10000"};
         sharpness = *parsed;
         kind = kind.substr(0, at);
     }

@@ -4,78 +4,15 @@
 #include <Eigen/Dense>
 #include <cmath>
 
-#include "lobelia/harmonics.h"
+#include "lobelia/encode/dense.h"
+#include "lobelia/encode/irradiance_norm.h"
+#include "lobelia/encode/least_squares.h"
 #include "lobelia/kernels.h"
-#include "lobelia/quadrature.h"
 
 namespace lobelia {
 namespace {
 
 using Eigen::MatrixXd;
-
-Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> as_matrix(
-    const std::vector<double>& values, std::size_t columns) {
-    return {values.data(), static_cast<Eigen::Index>(values.size() / columns), static_cast<Eigen::Index>(columns)};
-}
-
-/// Degree to which irradiance is followed in the joint norm: A_l^2 beyond it is below 7e-5 of A_0^2.
-constexpr std::size_t k_irradiance_degree = 6;
-
-/// What the joint norm needs to know of a basis: irradiance is diagonal in spherical harmonics.
-struct IrradianceNorm {
-    MatrixXd gram;       ///< <E_i, E_j> over all normals
-    MatrixXd functions;  ///< row i: A_l^2 times the harmonic coefficients of B_i
-    Eigen::VectorXd constant;  ///< harmonic coefficients of the constant 1 on the domain
-    Eigen::VectorXd squared_cosine;
-
-    explicit IrradianceNorm(const Basis& basis) {
-        const harmonics::Harmonics harmonics(k_irradiance_degree);
-        const MatrixXd g = project(basis, harmonics);
-        squared_cosine.resize(static_cast<Eigen::Index>(harmonics.size()));
-        for (std::size_t l = 0; l <= k_irradiance_degree; ++l)
-            for (std::size_t i = l * l; i < (l + 1) * (l + 1); ++i)
-                squared_cosine(static_cast<Eigen::Index>(i)) = std::pow(harmonics::clamped_cosine(l), 2);
-        functions = g * squared_cosine.asDiagonal();
-        gram = functions * g.transpose();
-
-        const SphereRule rule = product_rule(basis.domain(), 16);
-        std::vector<float> rows(harmonics.size() * k_block_size);
-        constant = Eigen::VectorXd::Zero(squared_cosine.size());
-        for_each_part(rule.directions.view(), k_block_size, [&](DirectionView block, std::size_t begin) {
-            harmonics.values(block, rows.data());
-            for (std::size_t i = 0; i < harmonics.size(); ++i)
-                for (std::size_t j = 0; j < block.size; ++j)
-                    constant(static_cast<Eigen::Index>(i)) +=
-                        rule.weights[begin + j] * static_cast<double>(rows[i * k_block_size + j]);
-        });
-    }
-
-    /// Harmonic coefficients of each basis function, with as many quadrature nodes as its own square needs. On the
-    /// hemisphere too they are those of whole functions, since evaluators read them whole.
-    static MatrixXd project(const Basis& basis, const harmonics::Harmonics& harmonics) {
-        const Matrix gram = basis.gram();
-        for (std::size_t heights = 32;; heights *= 2) {
-            if (heights < 512 && !resolves(basis, gram, product_rule(basis.domain(), heights))) continue;
-            const SphereRule sphere = product_rule(Domain::sphere, heights);
-            return as_matrix(inner_products(basis, harmonics, sphere), harmonics.size());
-        }
-    }
-
-    static bool resolves(const Basis& basis, const Matrix& gram, const SphereRule& rule) {
-        const std::size_t n = basis.size();
-        std::vector<double> squares(n);
-        std::vector<float> rows(n * k_block_size);
-        for_each_part(rule.directions.view(), k_block_size, [&](DirectionView block, std::size_t begin) {
-            basis.values(block, rows.data());
-            for (std::size_t i = 0; i < n; ++i)
-                for (std::size_t j = 0; j < block.size; ++j)
-                    squares[i] += rule.weights[begin + j] * std::pow(static_cast<double>(rows[i * k_block_size + j]), 2);
-        });
-        for (std::size_t i = 0; i < n; ++i)
-            if (std::abs(squares[i] - gram[i * n + i]) > 1e-5 * gram[i * n + i]) return false;
-        return true;
-    }
-};
 
 class MomentEncoder final : public Encoder {
   public:
@@ -108,18 +45,18 @@ class MomentEncoder final : public Encoder {
     void add(std::span<float> state, SampleView samples) const override {
         const std::size_t n = basis().size();
         const std::size_t most = is_joint() ? std::max(n, harmonics_.size()) : n;
-        std::vector<float> rows(most * k_block_size);
+        const auto rows = std::make_unique_for_overwrite<float[]>(most * k_block_size);
         float* moments = state.data() + k_header;
         float* gram = moments + 3 * n;
         float* harmonic_moments = gram + n * (n + 1) / 2;
         for_each_part(samples, k_block_size, [&](SampleView block, std::size_t) {
-            basis().values(block.directions(), rows.data());
-            state[k_weight] += kernels::add_moments(rows.data(), n, block, moments);
+            basis().values(block.directions(), rows.get());
+            state[k_weight] += kernels::add_moments(rows.get(), n, block, moments);
             add_header(state, block);
-            if (has_gram()) kernels::add_gram(rows.data(), n, block, gram);
+            if (has_gram()) kernels::add_gram(rows.get(), n, block, gram);
             if (is_joint()) {
-                harmonics_.values(block.directions(), rows.data());
-                kernels::add_moments(rows.data(), harmonics_.size(), block, harmonic_moments);
+                harmonics_.values(block.directions(), rows.get());
+                kernels::add_moments(rows.get(), harmonics_.size(), block, harmonic_moments);
             }
         });
     }
@@ -186,8 +123,8 @@ class MomentEncoder final : public Encoder {
         MatrixXd gram(n, n);
         for (Eigen::Index i = 0; i < n; ++i)
             for (Eigen::Index j = i; j < n; ++j) gram(i, j) = gram(j, i) = normalise * *next++;
-        // The least ridge that a Gram matrix summed in float32 can be told apart from.
-        gram.diagonal().array() += 1e-7 * gram.trace() / static_cast<double>(n);
+        // A ridge, relative to each function, above what float32 sums can tell apart.
+        gram.diagonal() *= 1 + 1e-6;
         return gram;
     }
 
@@ -264,73 +201,6 @@ class MomentEncoder final : public Encoder {
 std::shared_ptr<const Encoder> make_moment_encoder(std::shared_ptr<const Basis> basis, MomentSolver solver,
                                                    const MomentOptions& options) {
     return std::make_shared<MomentEncoder>(std::move(basis), solver, options);
-}
-
-std::vector<double> non_negative_least_squares(const Matrix& gram, std::span<const double> m) {
-    const auto n = static_cast<Eigen::Index>(m.size());
-    const MatrixXd g = as_matrix(gram, m.size());
-    const Eigen::VectorXd target = Eigen::Map<const Eigen::VectorXd>(m.data(), n);
-    Eigen::VectorXd b = Eigen::VectorXd::Zero(n);
-    std::vector<Eigen::Index> passive;
-    const double tolerance = 1e-12 * std::max(target.cwiseAbs().maxCoeff(), 1e-300);
-
-    // The unconstrained solution on the passive set alone.
-    const auto solve_passive = [&] {
-        const MatrixXd sub = g(passive, passive);
-        return Eigen::VectorXd(sub.ldlt().solve(target(passive)));
-    };
-    for (Eigen::Index step = 0; step < 10 * n; ++step) {
-        // Free the coefficient that wants most to grow; done when none does.
-        const Eigen::VectorXd gradient = target - g * b;
-        Eigen::Index best = -1;
-        for (Eigen::Index i = 0; i < n; ++i)
-            if (std::find(passive.begin(), passive.end(), i) == passive.end() && gradient(i) > tolerance &&
-                (best < 0 || gradient(i) > gradient(best)))
-                best = i;
-        if (best < 0) break;
-        passive.push_back(best);
-
-        // Walk towards the passive solution; whatever would turn negative on the way is fixed at 0 again.
-        Eigen::VectorXd s = solve_passive();
-        while (!passive.empty() && s.minCoeff() <= 0) {
-            double reach = 1;
-            for (std::size_t k = 0; k < passive.size(); ++k) {
-                const double at = b(passive[k]), to = s(static_cast<Eigen::Index>(k));
-                if (to <= 0) reach = std::min(reach, at / (at - to));
-            }
-            for (std::size_t k = 0; k < passive.size(); ++k)
-                b(passive[k]) += reach * (s(static_cast<Eigen::Index>(k)) - b(passive[k]));
-            std::erase_if(passive, [&](Eigen::Index i) { return b(i) <= tolerance * 1e-3; });
-            for (Eigen::Index i = 0; i < n; ++i)
-                if (std::find(passive.begin(), passive.end(), i) == passive.end()) b(i) = 0;
-            if (!passive.empty()) s = solve_passive();
-        }
-        for (std::size_t k = 0; k < passive.size(); ++k) b(passive[k]) = s(static_cast<Eigen::Index>(k));
-    }
-    return {b.data(), b.data() + n};
-}
-
-std::vector<Rgb> least_squares_by_qr(const Basis& basis, SampleView samples) {
-    const auto n = static_cast<Eigen::Index>(basis.size());
-    MatrixXd design(static_cast<Eigen::Index>(samples.size), n), target(design.rows(), 3);
-    std::vector<float> rows(basis.size() * k_block_size);
-    for_each_part(samples, k_block_size, [&](SampleView block, std::size_t begin) {
-        basis.values(block.directions(), rows.data());
-        for (std::size_t j = 0; j < block.size; ++j) {
-            const auto row = static_cast<Eigen::Index>(begin + j);
-            const double root = std::sqrt(static_cast<double>(block.solid_angles()[j]));
-            for (Eigen::Index i = 0; i < n; ++i)
-                design(row, i) = root * rows[static_cast<std::size_t>(i) * k_block_size + j];
-            const Rgb v = colour_at(block.radiance(), j);
-            target.row(row) << root * v.r, root * v.g, root * v.b;
-        }
-    });
-    const MatrixXd b = design.colPivHouseholderQr().solve(target);
-    std::vector<Rgb> c(basis.size());
-    for (Eigen::Index i = 0; i < n; ++i)
-        c[static_cast<std::size_t>(i)] = {static_cast<float>(b(i, 0)), static_cast<float>(b(i, 1)),
-                                          static_cast<float>(b(i, 2))};
-    return c;
 }
 
 }  // namespace lobelia

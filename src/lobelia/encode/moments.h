@@ -4,6 +4,7 @@
 #pragma once
 
 #include "lobelia/encode/encoder.h"
+#include "lobelia/encode/least_squares.h"
 
 namespace lobelia {
 
@@ -30,12 +31,5 @@ struct MomentOptions {
 [[nodiscard]] std::shared_ptr<const Encoder> make_moment_encoder(std::shared_ptr<const Basis> basis,
                                                                  MomentSolver solver,
                                                                  const MomentOptions& options = {});
-
-/// The b >= 0 with the least b^T G b - 2 m^T b, G symmetric positive definite (row by row): fast NNLS.
-[[nodiscard]] std::vector<double> non_negative_least_squares(const Matrix& gram, std::span<const double> m);
-
-/// Ordinary least squares by Householder QR on the full design matrix, in double precision: the oracle. Slow and
-/// memory-hungry on purpose: samples x size().
-[[nodiscard]] std::vector<Rgb> least_squares_by_qr(const Basis& basis, SampleView samples);
 
 }  // namespace lobelia

@@ -35,16 +35,17 @@ class SequentialEncoder : public Encoder {
         fill_floor(padded.data() + 4 * lanes);
 
         // Go through the samples, lobes side by side.
-        std::vector<float> rows(2 * n * k_block_size), values(lanes * k_block_size), gains;
-        if (wants_gains()) gains.resize(values.size());
+        const std::size_t at_once = std::min(samples.size, k_block_size);
+        const auto rows = std::make_unique_for_overwrite<float[]>(2 * n * k_block_size);
+        std::vector<float> values(lanes * at_once), gains(wants_gains() ? values.size() : 0);
         Progress progress{state[k_weight], state[k_count]};
         for_each_part(samples, k_block_size, [&](SampleView block, std::size_t) {
-            basis().values(block.directions(), rows.data());
-            transpose(rows.data(), n, lanes, block.size, values.data());
+            basis().values(block.directions(), rows.get());
+            transpose(rows.get(), n, lanes, block.size, values.data());
             s.values = values.data();
             if (wants_gains()) {
-                fill_gains(rows.data(), block.size, rows.data() + n * k_block_size);
-                transpose(rows.data() + n * k_block_size, n, lanes, block.size, gains.data());
+                fill_gains(rows.get(), block.size, rows.get() + n * k_block_size);
+                transpose(rows.get() + n * k_block_size, n, lanes, block.size, gains.data());
                 s.gains = gains.data();
             }
             Steps steps;
@@ -231,6 +232,8 @@ class MatrixGain final : public SequentialEncoder {
         const auto n = static_cast<Eigen::Index>(basis().size());
         const Matrix gram = basis().gram();
         Eigen::MatrixXd mean = Eigen::Map<const Eigen::MatrixXd>(gram.data(), n, n) / solid_angle(basis().domain());
+        // A ridge, relative to each function, for sets of lobes that are nearly dependent.
+        mean.diagonal() *= 1 + 1e-6;
         const Eigen::MatrixXd inverse = mean.ldlt().solve(Eigen::MatrixXd::Identity(n, n));
         inverse_.assign(inverse.data(), inverse.data() + inverse.size());
     }
