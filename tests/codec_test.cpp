@@ -317,10 +317,10 @@ TEST(EveryCodec, MergingWithNothingChangesNothing) {
 
 TEST(EveryCodec, PiecesOfAnySizeEqualOneBatch) {
     for_each_encoder([](const BasisPtr& basis, const std::string&, const EncoderPtr& encoder) {
-        const Samples samples = sky_samples(basis->domain(), 2000);
+        const Samples samples = sky_samples(basis->domain(), 700);
         const auto expected = encode(encoder, samples);
         for (const auto& sizes :
-             std::vector<std::vector<std::size_t>>{{1}, {15, 16, 17}, {255, 256, 257}, {1, 700, 3}, {0, 1999}}) {
+             std::vector<std::vector<std::size_t>>{{1}, {15, 16, 17}, {255, 256, 257}, {1, 500, 3}, {0, 699}}) {
             Accumulator accumulator(encoder);
             std::size_t begin = 0;
             for (std::size_t k = 0; begin < samples.size(); ++k) {
@@ -328,9 +328,9 @@ TEST(EveryCodec, PiecesOfAnySizeEqualOneBatch) {
                 accumulator.add(test::slice(samples, begin, end));
                 begin = end;
             }
-            // The sums are the same but for float32 rounding, about 5e-6 for 2000 single samples, which the
+            // The sums are the same but for float32 rounding, a few 1e-6 for 700 single samples, which the
             // conditioning of a fit to a sun multiplies, most where an ambient lobe nearly is a sum of the others.
-            EXPECT_LE(test::excess(*basis, accumulator.solve(), expected), 5e-4) << "pieces from " << sizes[0];
+            EXPECT_LE(test::excess(*basis, accumulator.solve(), expected), 2e-4) << "pieces from " << sizes[0];
         }
     });
 }
@@ -420,7 +420,7 @@ TEST(EveryCodec, SamplesOfNoSolidAngleGiveZero) {
 
 TEST(EveryCodec, FewSamplesGiveFiniteCoefficients) {
     for_each_encoder([](const BasisPtr& basis, const std::string&, const EncoderPtr& encoder) {
-        const Directions directions = test::random_directions(basis->domain(), 16, 12);
+        const Directions directions = test::random_directions(basis->domain(), 6, 12);
         for (std::size_t i = 0; i < directions.size(); ++i)
             for (const float solid_angle : {1e-6f, 1.0f, 4e3f}) {
                 Samples one(1);

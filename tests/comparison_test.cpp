@@ -135,7 +135,8 @@ TEST(Comparison, BlackEnvironmentGivesZeros) {
         EXPECT_EQ(m.irradiance_over_pi.smape, 0) << m.name.str();
     }
     // What is not finite would be written as null.
-    for (const json& m : timeless(result)["methods"])
+    const json report = timeless(result);
+    for (const json& m : report["methods"])
         for (const auto& [key, value] : m.items()) EXPECT_FALSE(value.is_null()) << key;
 }
 
