@@ -1,7 +1,10 @@
 // The lobelia command: chooses the verb, prints errors, returns 0, or 2 for bad input.
 #include <fmt/core.h>
 
+#include <cerrno>
 #include <csignal>
+#include <cstdio>
+#include <system_error>
 
 #include "cli/verbs.h"
 
@@ -23,6 +26,25 @@ and measures how wrong each choice is.
 lobelia -h tells more, lobelia VERB -h all of a verb's options.
 )";
 
+/// Parses the command line and does what it says.
+int run(CLI::App& app, const std::vector<lobelia::cli::Verb>& verbs, int argc, char** argv) {
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        if (error.get_exit_code() == 0) return app.exit(error);
+        fmt::print(stderr, "lobelia: {}\nRun with -h for the options.\n", error.what());
+        return k_bad_input;
+    }
+    for (const auto& verb : verbs) {
+        if (!verb.command->parsed()) continue;
+        const auto status = verb.action();
+        if (!status) fmt::print(stderr, "lobelia: {}\n", status.error().message);
+        return status ? 0 : k_bad_input;
+    }
+    fmt::print("{}", k_short_help);
+    return 0;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -37,31 +59,18 @@ int main(int argc, char** argv) {
         lobelia::cli::add_compare(app), lobelia::cli::add_encode(app), lobelia::cli::add_eval(app),
         lobelia::cli::add_reference(app), lobelia::cli::add_list(app), lobelia::cli::add_study(app)};
 
-    if (argc == 1) {
-        fmt::print("{}", k_short_help);
-        return 0;
-    }
     try {
-        app.parse(argc, argv);
-        for (const auto& verb : verbs) {
-            if (!verb.command->parsed()) continue;
-            if (const auto status = verb.action(); !status) {
-                fmt::print(stderr, "lobelia: {}\n", status.error().message);
-                return k_bad_input;
-            }
-            return 0;
-        }
-        fmt::print("{}", k_short_help);
-        return 0;
-    } catch (const CLI::ParseError& error) {
-        if (error.get_exit_code() == 0) return app.exit(error);
-        fmt::print(stderr, "lobelia: {}\nRun with -h for the options.\n", error.what());
-        return k_bad_input;
+        const int code = run(app, verbs, argc, argv);
+        if (std::fflush(stdout) != 0) throw std::system_error(errno, std::generic_category(), "standard output");
+        return code;
+    } catch (const std::system_error& error) {
+        // Whoever reads the output has seen enough.
+        if (error.code() == std::errc::broken_pipe) return 0;
+        fmt::print(stderr, "lobelia: {}\n", error.what());
     } catch (const std::bad_alloc&) {
         fmt::print(stderr, "lobelia: not enough memory\n");
-        return k_bad_input;
     } catch (const std::exception& error) {
         fmt::print(stderr, "lobelia: {}\n", error.what());
-        return k_bad_input;
     }
+    return k_bad_input;
 }
