@@ -43,7 +43,7 @@ Result<LoadedEnvironment> load(const EnvironmentOptions& options) {
     allow_reader_threads(static_cast<int>(std::thread::hardware_concurrency()));
     auto loaded = read_environment(options.path, options.read);
     if (!loaded) return loaded.error();
-    for (const auto& warning : loaded->warnings) fmt::print(stderr, "lobelia: warning: {}\n", warning);
+    for (const auto& warning : loaded->warnings) complain("lobelia: warning: " + options.path + ": " + warning);
     EnvironmentInfo info{std::filesystem::path(options.path).filename().string(), lat_long(loaded->image),
                          loaded->warnings, loaded->sanitized.total()};
     return LoadedEnvironment{std::move(loaded->image), std::move(info)};
@@ -93,13 +93,31 @@ Result<LatLong> parse_grid(const std::string& text) {
     return grid;
 }
 
-Status prepare_folder(const std::filesystem::path& folder) {
+Status check_folder(const std::filesystem::path& folder) {
+    // Ask the folder, or the nearest one above it that is there.
+    namespace fs = std::filesystem;
     std::error_code code;
-    std::filesystem::create_directories(folder, code);
-    if (code) return Error{folder.string() + ": cannot be made a folder: " + code.message()};
-    if (access(folder.c_str(), W_OK | X_OK) != 0)
+    fs::path existing = fs::absolute(folder, code);
+    while (!fs::exists(existing, code) && existing.has_relative_path()) existing = existing.parent_path();
+    if (!fs::is_directory(existing, code))
+        return Error{folder.string() + ": cannot be made a folder: " + existing.string() + " is not one"};
+    if (access(existing.c_str(), W_OK | X_OK) != 0)
         return Error{folder.string() + ": cannot be written to: " + std::generic_category().message(errno)};
     return Done{};
+}
+
+Status write_into_folder(const std::filesystem::path& folder, std::span<const FileContent> files) {
+    std::error_code code;
+    const bool made = std::filesystem::create_directories(folder, code);
+    if (code) return Error{folder.string() + ": cannot be made a folder: " + code.message()};
+    auto status = write_files_together(files);
+    if (!status && made) std::filesystem::remove(folder, code);
+    return status;
+}
+
+void complain(const std::string& line) {
+    std::fputs((line + "\n").c_str(), stderr);
+    std::fflush(stderr);
 }
 
 Progress progress_bar() {
@@ -110,19 +128,20 @@ Progress progress_bar() {
         if (seconds < 1 || (done >= 1 && !shown)) return;
         constexpr int width = 40;
         const int filled = static_cast<int>(done * width);
-        fmt::print(stderr, "\r[{:=<{}}{: <{}}] {:3.0f} %", "", filled, "", width - filled, 100 * done);
-        if (done >= 1 - 1e-9) fmt::print(stderr, "\r\033[K");
+        std::string line = fmt::format("\r[{:=<{}}{: <{}}] {:3.0f} %", "", filled, "", width - filled, 100 * done);
+        if (done >= 1 - 1e-9) line += "\r\033[K";
+        std::fputs(line.c_str(), stderr);
         std::fflush(stderr);
         shown = true;
     };
 }
 
-Result<std::string> read_text(const std::string& path) {
+Result<std::string> read_text(const std::string& path, std::uintmax_t most_mebibytes) {
     std::error_code code;
     if (!std::filesystem::exists(path, code)) return Error{path + ": no such file"};
     if (!std::filesystem::is_regular_file(path, code)) return Error{path + ": not a regular file"};
-    constexpr std::uintmax_t most = std::uintmax_t{64} << 20;
-    if (std::filesystem::file_size(path, code) > most) return Error{path + ": larger than 64 MiB"};
+    if (std::filesystem::file_size(path, code) > most_mebibytes << 20)
+        return Error{fmt::format("{}: larger than {} MiB", path, most_mebibytes)};
     std::ifstream file(path, std::ios::binary);
     if (!file) return Error{path + ": cannot be opened"};
     std::string text{std::istreambuf_iterator<char>(file), {}};

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include "io/read_image.h"
+#include "io/write_file.h"
 #include "report/comparison.h"
 #include "report/json.h"
 
@@ -47,14 +48,20 @@ void add_sampling_options(CLI::App& command, SamplingOptions& options);
 /// "256x128" as a grid of at least 1 x 1 and at most 2^26 texels.
 [[nodiscard]] Result<LatLong> parse_grid(const std::string& text);
 
-/// Makes the folder if it is missing and checks that it can be written to: before the work, so that a bad one costs
-/// no time.
-[[nodiscard]] Status prepare_folder(const std::filesystem::path& folder);
+/// Whether files can be written into the folder, which need not be there yet: asked before the work, so that a bad one
+/// costs no time.
+[[nodiscard]] Status check_folder(const std::filesystem::path& folder);
+
+/// Makes the folder if it is missing, and writes all files or none; a folder made in vain is removed again.
+[[nodiscard]] Status write_into_folder(const std::filesystem::path& folder, std::span<const FileContent> files);
+
+/// A line on stderr; where nobody listens any more, it is lost and nothing else changes.
+void complain(const std::string& line);
 
 /// A bar on stderr for work that lasts over a second, only where stderr is a terminal.
 [[nodiscard]] Progress progress_bar();
 
-/// The whole of a text file of at most 64 MiB.
-[[nodiscard]] Result<std::string> read_text(const std::string& path);
+/// The whole of a text file of at most `most_mebibytes`.
+[[nodiscard]] Result<std::string> read_text(const std::string& path, std::uintmax_t most_mebibytes = 64);
 
 }  // namespace lobelia::cli

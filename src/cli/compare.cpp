@@ -38,7 +38,9 @@ Result<std::vector<CodecName>> chosen_codecs(const Options& options) {
     const auto wants = [](const std::vector<std::string>& wanted, const std::string& name) {
         return wanted.empty() || std::find(wanted.begin(), wanted.end(), name) != wanted.end();
     };
-    const auto known_encoders = encoder_names();
+    auto known_encoders = encoder_names();
+    const auto variants = encoder_variant_names();
+    known_encoders.insert(known_encoders.end(), variants.begin(), variants.end());
     for (const auto& name : options.encoders)
         if (!wants(known_encoders, name))
             return Error{"unknown encoder \"" + name + "\"" + nearest_names(name, known_encoders)};
@@ -52,11 +54,17 @@ Result<std::vector<CodecName>> chosen_codecs(const Options& options) {
         if (!basis) return basis.error();
         const auto evaluators = (*basis)->evaluator_names();
         known_evaluators.insert(known_evaluators.end(), evaluators.begin(), evaluators.end());
-        for (const auto& encoder : encoder_names(**basis))
+        // Variants for study run only where they are named.
+        auto encoders = encoder_names(**basis);
+        for (const auto& name : variants)
+            if (!options.encoders.empty() && make_encoder(name, *basis)) encoders.push_back(name);
+        for (const auto& encoder : encoders)
             for (const auto& evaluator : evaluators)
                 if (wants(options.encoders, encoder) && wants(options.evaluators, evaluator))
                     chosen.push_back({basis_name, encoder, evaluator});
     }
+    std::sort(known_evaluators.begin(), known_evaluators.end());
+    known_evaluators.erase(std::unique(known_evaluators.begin(), known_evaluators.end()), known_evaluators.end());
     for (const auto& name : options.evaluators)
         if (!wants(known_evaluators, name))
             return Error{"unknown evaluator \"" + name + "\"" + nearest_names(name, known_evaluators)};
@@ -108,7 +116,7 @@ Status compare_verb(const Options& options) {
     auto environment = load(options.environment);
     if (!environment) return environment.error();
     const std::filesystem::path folder = options.out;
-    if (auto status = prepare_folder(folder); !status) return status;
+    if (auto status = check_folder(folder); !status) return status;
 
     const auto comparison = run(options, environment->image);
     if (!comparison) return comparison.error();
@@ -117,7 +125,7 @@ Status compare_verb(const Options& options) {
     const std::string page = options.json_only ? "" : report_html(report, to_pictures(*comparison));
     std::vector<FileContent> files = {{folder / "report.json", text}};
     if (!options.json_only) files.push_back({folder / "report.html", page});
-    if (auto status = write_files_together(files); !status) return status;
+    if (auto status = write_into_folder(folder, files); !status) return status;
     print_summary(*comparison);
     fmt::print("{}\n", (folder / (options.json_only ? "report.json" : "report.html")).string());
     return Done{};

@@ -32,7 +32,7 @@ Status encode_verb(const EncodeOptions& options) {
     for (const Rgb& c : file.c)
         if (!std::isfinite(c.r + c.g + c.b))
             return Error{options.codec + ": the coefficients of " + environment->info.name + " are not finite"};
-    return write_file_atomically(options.out, to_json(file).dump(1) + "\n");
+    return write_file_atomically(options.out, to_json(file).dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
 }
 
 /// Where something is evaluated, and the file it goes to.
@@ -128,7 +128,7 @@ struct EvalOptions {
 };
 
 Status eval_verb(const EvalOptions& options) {
-    const auto text = read_text(options.coefficients);
+    const auto text = read_text(options.coefficients, 1);
     if (!text) return text.error();
     const auto file = coefficients_from_json(*text, options.coefficients);
     if (!file) return file.error();

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <system_error>
 
+#include "cli/common.h"
 #include "cli/verbs.h"
 
 namespace {
@@ -32,13 +33,13 @@ int run(CLI::App& app, const std::vector<lobelia::cli::Verb>& verbs, int argc, c
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) return app.exit(error);
-        fmt::print(stderr, "lobelia: {}\nRun with -h for the options.\n", error.what());
+        lobelia::cli::complain(fmt::format("lobelia: {}\nRun with -h for the options.", error.what()));
         return k_bad_input;
     }
     for (const auto& verb : verbs) {
         if (!verb.command->parsed()) continue;
         const auto status = verb.action();
-        if (!status) fmt::print(stderr, "lobelia: {}\n", status.error().message);
+        if (!status) lobelia::cli::complain("lobelia: " + status.error().message);
         return status ? 0 : k_bad_input;
     }
     fmt::print("{}", k_short_help);
@@ -55,6 +56,7 @@ int main(int argc, char** argv) {
     app.set_version_flag("--version", std::string("lobelia ") + LOBELIA_VERSION);
     app.require_subcommand(0, 1);
     app.get_formatter()->column_width(36);
+    app.footer("lobelia VERB -h tells a verb's options; lobelia alone shows examples.");
     const std::vector<lobelia::cli::Verb> verbs = {
         lobelia::cli::add_compare(app), lobelia::cli::add_encode(app), lobelia::cli::add_eval(app),
         lobelia::cli::add_reference(app), lobelia::cli::add_list(app), lobelia::cli::add_study(app)};
@@ -66,11 +68,11 @@ int main(int argc, char** argv) {
     } catch (const std::system_error& error) {
         // Whoever reads the output has seen enough.
         if (error.code() == std::errc::broken_pipe) return 0;
-        fmt::print(stderr, "lobelia: {}\n", error.what());
+        lobelia::cli::complain(std::string("lobelia: ") + error.what());
     } catch (const std::bad_alloc&) {
-        fmt::print(stderr, "lobelia: not enough memory\n");
+        lobelia::cli::complain("lobelia: not enough memory");
     } catch (const std::exception& error) {
-        fmt::print(stderr, "lobelia: {}\n", error.what());
+        lobelia::cli::complain(std::string("lobelia: ") + error.what());
     }
     return k_bad_input;
 }

@@ -34,13 +34,12 @@ struct Options {
 
 /// Prints the tables and writes NAME.html, NAME.json and NAME.md.
 Status write_study(const Study& study, const std::filesystem::path& folder) {
-    if (auto status = prepare_folder(folder); !status) return status;
     const auto page = study_html(study);
     if (!page) return page.error();
     const auto file = [&](const char* extension) { return folder / (study.name + extension); };
     const std::string markdown = to_markdown(study), json = to_json(study).dump(1) + "\n";
     const FileContent files[] = {{file(".html"), *page}, {file(".json"), json}, {file(".md"), markdown}};
-    if (auto status = write_files_together(files); !status) return status;
+    if (auto status = write_into_folder(folder, files); !status) return status;
     fmt::print("{}\n{}\n", markdown, file(".html").string());
     return Done{};
 }
@@ -75,6 +74,7 @@ Verb add_study(CLI::App& app) {
     return {command, [=]() -> Status {
                 for (const auto& [study, entry] : formulae)
                     if (study->parsed()) return write_study(entry->run(), options->out);
+                if (auto status = check_folder(options->out); !status) return status;
                 const auto environment = load(options->environment);
                 if (!environment) return environment.error();
                 const auto study =

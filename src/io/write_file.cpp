@@ -55,53 +55,79 @@ bool write_all(int descriptor, std::span<const std::byte> bytes) {
     return true;
 }
 
-struct Temporary {
-    fs::path path;
-    Descriptor descriptor;
-};
-
-/// A new file beside `path`, which no other process or thread has.
-std::optional<Temporary> create_beside(const fs::path& path) {
+/// A new file of the folder of `path` under a name that no other process or thread has, made by `create(name)`, which
+/// tells whether it could.
+template <class Create>
+std::optional<fs::path> create_named_beside(const fs::path& path, const Create& create) {
     constexpr int k_attempts = 1000;
     for (int i = 0; i < k_attempts; ++i) {
         fs::path candidate = path.parent_path() / fmt::format(".lobelia-{}-{}.tmp", ::getpid(), i);
-        Descriptor descriptor(::open(candidate.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
-        if (descriptor.is_open()) return Temporary{std::move(candidate), std::move(descriptor)};
+        if (create(candidate)) return candidate;
         if (errno != EEXIST) return std::nullopt;
     }
     return std::nullopt;
 }
 
-/// A file whose new content lies complete beside it, until `commit` renames it or the destructor removes it.
+/// A file whose new content is complete beside it, until `commit` puts it in place. Where the system can, it has no name
+/// before that, so that nothing is left of it if the process is ended; else the destructor removes it.
 class StagedFile {
   public:
-    StagedFile(fs::path target, fs::path temporary) : target_(std::move(target)), temporary_(std::move(temporary)) {}
+    StagedFile(fs::path target, Descriptor descriptor, std::optional<fs::path> temporary)
+        : target_(std::move(target)), descriptor_(std::move(descriptor)), temporary_(std::move(temporary)) {}
     StagedFile(StagedFile&& other) noexcept
-        : target_(std::move(other.target_)), temporary_(std::exchange(other.temporary_, {})) {}
+        : target_(std::move(other.target_)),
+          descriptor_(std::move(other.descriptor_)),
+          temporary_(std::exchange(other.temporary_, std::nullopt)) {}
     StagedFile& operator=(StagedFile&&) = delete;
     ~StagedFile() {
-        if (!temporary_.empty()) ::unlink(temporary_.c_str());
+        if (temporary_) ::unlink(temporary_->c_str());
     }
+
     [[nodiscard]] Status commit() {
-        if (::rename(temporary_.c_str(), target_.c_str()) != 0) return failure(target_, errno);
-        temporary_.clear();
+        if (!temporary_) {
+            const std::string self = fmt::format("/proc/self/fd/{}", descriptor_.get());
+            temporary_ = create_named_beside(target_, [&](const fs::path& name) {
+                return ::linkat(AT_FDCWD, self.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0;
+            });
+            if (!temporary_) return failure(target_, errno);
+        }
+        if (!descriptor_.close() || ::rename(temporary_->c_str(), target_.c_str()) != 0)
+            return failure(target_, errno);
+        temporary_.reset();
         return Done{};
     }
 
+    [[nodiscard]] int descriptor() const { return descriptor_.get(); }
+
   private:
-    fs::path target_, temporary_;
+    fs::path target_;
+    Descriptor descriptor_;
+    std::optional<fs::path> temporary_;
 };
 
+/// An empty staged file, unnamed if the system can do that there.
+Result<StagedFile> create_staged(const fs::path& path) {
+    const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+    Descriptor unnamed(::open(folder.c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, 0666));
+    if (unnamed.is_open() && ::access("/proc/self/fd", X_OK) == 0)
+        return StagedFile(path, std::move(unnamed), std::nullopt);
+    int opened = -1;
+    const auto name = create_named_beside(path, [&](const fs::path& candidate) {
+        opened = ::open(candidate.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        return opened >= 0;
+    });
+    if (!name) return failure(path, errno);
+    return StagedFile(path, Descriptor(opened), name);
+}
+
 Result<StagedFile> stage(const fs::path& path, std::span<const std::byte> bytes) {
-    std::optional<Temporary> temporary = create_beside(path);
-    if (!temporary) return failure(path, errno);
-    StagedFile staged(path, temporary->path);
+    auto staged = create_staged(path);
+    if (!staged) return staged;
     // Keep the permissions of the file that is replaced.
     struct stat old {};
     const bool replaces = ::stat(path.c_str(), &old) == 0;
-    const bool done = (!replaces || ::fchmod(temporary->descriptor.get(), old.st_mode & 0777) == 0) &&
-                      write_all(temporary->descriptor.get(), bytes) && ::fsync(temporary->descriptor.get()) == 0 &&
-                      temporary->descriptor.close();
+    const bool done = (!replaces || ::fchmod(staged->descriptor(), old.st_mode & 0777) == 0) &&
+                      write_all(staged->descriptor(), bytes) && ::fsync(staged->descriptor()) == 0;
     if (!done) return failure(path, errno);
     return staged;
 }

@@ -74,8 +74,8 @@ struct StudyEntry {
 };
 [[nodiscard]] std::span<const StudyEntry> studies();
 
-/// The known names nearest to `name` by edit distance, nearest first, at most three, as " (did you mean ...?)"; empty
-/// where none is near.
+/// The known names nearest to `name` by edit distance, nearest first, at most three, as " (did you mean ...?)"; where
+/// none is near, all of a short list as " (known: ...)", or nothing.
 [[nodiscard]] std::string nearest_names(std::string_view name, std::span<const std::string> known);
 
 }  // namespace lobelia

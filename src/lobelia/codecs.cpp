@@ -213,7 +213,12 @@ std::string nearest_names(std::string_view name, std::span<const std::string> kn
     for (std::size_t i = 0; i < std::min<std::size_t>(3, ranked.size()); ++i)
         if (ranked[i].first <= std::max<std::size_t>(3, name.size() / 2))
             text += (text.empty() ? "" : ", ") + ranked[i].second;
-    return text.empty() ? "" : " (did you mean " + text + "?)";
+    if (!text.empty()) return " (did you mean " + text + "?)";
+    // Nothing is near: where the list is short, say all of it.
+    constexpr std::size_t short_list = 20;
+    if (known.empty() || known.size() > short_list) return "";
+    for (const auto& candidate : known) text += (text.empty() ? "" : ", ") + candidate;
+    return " (known: " + text + ")";
 }
 
 std::vector<Rgb> Codec::encode(SampleView samples) const {
