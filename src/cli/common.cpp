@@ -15,10 +15,12 @@
 namespace lobelia::cli {
 
 void add_environment_options(CLI::App& command, EnvironmentOptions& options) {
-    command.add_option("ENV", options.path,
-                       "A latitude-longitude environment, .hdr or .exr, or \"sky\" for the embedded one")
+    command
+        .add_option("ENV", options.path,
+                    "A latitude-longitude environment, .hdr or .exr, or \"sky\" for the embedded one")
         ->required();
-    command.add_flag("--ldr", options.read.ldr, "Accept PNG, JPEG and BMP too (decoded from sRGB; highlights are cut off)");
+    command.add_flag("--ldr", options.read.ldr,
+                     "Accept PNG, JPEG and BMP too (decoded from sRGB; highlights are cut off)");
     command.add_flag("--sanitize", options.read.sanitize,
                      "Replace NaN, infinite and negative texels by 0 where they are otherwise refused");
     command.add_option("--sky-size", options.sky_size, "Texels of the embedded sky, WxH")->capture_default_str();
@@ -55,7 +57,9 @@ void add_sampling_options(CLI::App& command, SamplingOptions& options) {
     command.add_option("--sequence", options.sequence, "Where samples are taken; texels: each one once, shuffled")
         ->check(CLI::IsMember(names))
         ->capture_default_str();
-    command.add_option("--samples", options.samples, "How many, 1 to 100000000 (default: all texels, or 20000 of another sequence)")
+    command
+        .add_option("--samples", options.samples,
+                    "How many, 1 to 100000000 (default: all texels, or 20000 of another sequence)")
         ->check(CLI::Range(std::size_t{1}, std::size_t{100'000'000}));
     command.add_option("--seed", options.seed, "Of the sequence and the shuffle, 0 to 4294967295")
         ->capture_default_str();

@@ -135,20 +135,22 @@ Status compare_verb(const Options& options) {
 
 Verb add_compare(CLI::App& app) {
     auto options = std::make_shared<Options>();
-    CLI::App* command = app.add_subcommand("compare", "Run codecs on an environment; write report.html and report.json");
+    CLI::App* command =
+        app.add_subcommand("compare", "Run codecs on an environment; write report.html and report.json");
     add_environment_options(*command, options->environment);
     add_sampling_options(*command, options->sampling);
     command->add_option("--out", options->out, "Folder of the report")->capture_default_str();
-    CLI::Option* codec =
-        command->add_option("--codec", options->codecs, "Only these, as basis/encoder/evaluator (default: all of the list)");
+    CLI::Option* codec = command->add_option("--codec", options->codecs,
+                                             "Only these, as basis/encoder/evaluator (default: all of the list)");
     CLI::Option* basis = command->add_option("--basis", options->bases,
                                              "Only these bases; also others than the listed, see lobelia list --axes");
     CLI::Option* encoder = command->add_option("--encoder", options->encoders, "Only these encoders");
     CLI::Option* evaluator = command->add_option("--evaluator", options->evaluators, "Only these evaluators");
     for (CLI::Option* filter : {basis, encoder, evaluator}) codec->excludes(filter);
     command
-        ->add_option("--recipe", options->recipe,
-                     "Reproduce a published table instead: published (2018, first version) or updated (2018, corrected)")
+        ->add_option(
+            "--recipe", options->recipe,
+            "Reproduce a published table instead: published (2018, first version) or updated (2018, corrected)")
         ->check(CLI::IsMember({"published", "updated"}))
         ->excludes(codec, basis, encoder, evaluator, command->get_option("--sequence"),
                    command->get_option("--samples"), command->get_option("--seed"));

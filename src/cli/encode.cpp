@@ -32,7 +32,8 @@ Status encode_verb(const EncodeOptions& options) {
     for (const Rgb& c : file.c)
         if (!std::isfinite(c.r + c.g + c.b))
             return Error{options.codec + ": the coefficients of " + environment->info.name + " are not finite"};
-    return write_file_atomically(options.out, to_json(file).dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+    return write_file_atomically(options.out,
+                                 to_json(file).dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
 }
 
 /// Where something is evaluated, and the file it goes to.
@@ -190,8 +191,9 @@ Verb add_eval(CLI::App& app) {
 
 Verb add_reference(CLI::App& app) {
     auto options = std::make_shared<ReferenceOptions>();
-    CLI::App* command = app.add_subcommand(
-        "reference", "Exact irradiance E [W/m^2] of an environment, summed over its texels (above 131072, of the reduced one); or its radiance");
+    CLI::App* command = app.add_subcommand("reference",
+                                           "Exact irradiance E [W/m^2] of an environment, summed over its texels "
+                                           "(above 131072, of the reduced one); or its radiance");
     add_environment_options(*command, options->environment);
     add_output_options(*command, options->output);
     return {command, [options] { return reference_verb(*options); }};

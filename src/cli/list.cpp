@@ -9,8 +9,7 @@ namespace {
 
 void print_axes() {
     fmt::print("bases (one RGB coefficient per function)\n");
-    for (const auto& name : basis_names())
-        fmt::print("  {:<20} {}\n", name, make_basis(name).value()->description());
+    for (const auto& name : basis_names()) fmt::print("  {:<20} {}\n", name, make_basis(name).value()->description());
     for (const auto& [pattern, meaning] : basis_name_patterns()) fmt::print("  {:<20} {}\n", pattern, meaning);
     fmt::print("encoders\n");
     for (const auto& name : encoder_names()) fmt::print("  {}\n", name);

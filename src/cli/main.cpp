@@ -13,7 +13,8 @@ namespace {
 
 constexpr int k_bad_input = 2;
 
-constexpr const char* k_short_help = R"(lobelia bakes light into lobes: it encodes HDR radiance into small spherical bases
+constexpr const char* k_short_help =
+    R"(lobelia bakes light into lobes: it encodes HDR radiance into small spherical bases
 and measures how wrong each choice is.
 
   lobelia compare sky                      every codec on the embedded sky, as a page
@@ -57,9 +58,9 @@ int main(int argc, char** argv) {
     app.require_subcommand(0, 1);
     app.get_formatter()->column_width(36);
     app.footer("lobelia VERB -h tells a verb's options; lobelia alone shows examples.");
-    const std::vector<lobelia::cli::Verb> verbs = {
-        lobelia::cli::add_compare(app), lobelia::cli::add_encode(app), lobelia::cli::add_eval(app),
-        lobelia::cli::add_reference(app), lobelia::cli::add_list(app), lobelia::cli::add_study(app)};
+    const std::vector<lobelia::cli::Verb> verbs = {lobelia::cli::add_compare(app), lobelia::cli::add_encode(app),
+                                                   lobelia::cli::add_eval(app),    lobelia::cli::add_reference(app),
+                                                   lobelia::cli::add_list(app),    lobelia::cli::add_study(app)};
 
     try {
         const int code = run(app, verbs, argc, argv);

@@ -14,8 +14,8 @@ inline constexpr std::int64_t k_most_side = 65536;
 [[nodiscard]] Status check_size(std::string_view name, std::int64_t width, std::int64_t height,
                                 const ReadOptions& options);
 
-/// Sets negative components to 0 where they are small beside the largest (1 %), and says so in a warning that gives `cause`: for those that arise in decoding valid
-/// files, and are not faults of theirs.
+/// Sets negative components to 0 where they are small beside the largest (1 %), and says so in a warning that gives
+/// `cause`: for those that arise in decoding valid files, and are not faults of theirs.
 void clip_negatives(LoadedImage& loaded, std::string_view cause);
 
 /// Counts, and replaces where `options.sanitize` says so, components that are no radiance; warns of an odd aspect.

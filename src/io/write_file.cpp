@@ -68,8 +68,8 @@ std::optional<fs::path> create_named_beside(const fs::path& path, const Create& 
     return std::nullopt;
 }
 
-/// A file whose new content is complete beside it, until `commit` puts it in place. Where the system can, it has no name
-/// before that, so that nothing is left of it if the process is ended; else the destructor removes it.
+/// A file whose new content is complete beside it, until `commit` puts it in place. Where the system can, it has no
+/// name before that, so that nothing is left of it if the process is ended; else the destructor removes it.
 class StagedFile {
   public:
     StagedFile(fs::path target, Descriptor descriptor, std::optional<fs::path> temporary)
@@ -91,8 +91,7 @@ class StagedFile {
             });
             if (!temporary_) return failure(target_, errno);
         }
-        if (!descriptor_.close() || ::rename(temporary_->c_str(), target_.c_str()) != 0)
-            return failure(target_, errno);
+        if (!descriptor_.close() || ::rename(temporary_->c_str(), target_.c_str()) != 0) return failure(target_, errno);
         temporary_.reset();
         return Done{};
     }

@@ -128,8 +128,7 @@ std::vector<std::string> encoder_variant_names() {
 }
 
 std::vector<std::string> encoder_names(const Basis& basis) {
-    return names_where(
-        [&](const EncoderEntry& entry) { return entry.listed == Listed::yes && suits(entry, basis); });
+    return names_where([&](const EncoderEntry& entry) { return entry.listed == Listed::yes && suits(entry, basis); });
 }
 
 std::vector<NamePattern> basis_name_patterns() { return {k_patterns.begin(), k_patterns.end()}; }

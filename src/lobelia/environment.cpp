@@ -124,8 +124,7 @@ Directions LatLong::directions(Domain domain) const {
         const double sin_phi = std::sin(phi), cos_phi = std::cos(phi);
         for (std::size_t x = 0; x < width; ++x)
             set_entry(result.view(), y * width + x,
-                      domain_from_world(domain,
-                                        direction_from_angles(sin_theta[x], cos_theta[x], sin_phi, cos_phi)));
+                      domain_from_world(domain, direction_from_angles(sin_theta[x], cos_theta[x], sin_phi, cos_phi)));
     }
     return result;
 }
@@ -133,8 +132,7 @@ Directions LatLong::directions(Domain domain) const {
 std::vector<float> LatLong::solid_angles() const {
     std::vector<float> result(size());
     for (std::size_t y = 0; y < height; ++y)
-        std::fill_n(result.begin() + static_cast<std::ptrdiff_t>(y * width), width,
-                    static_cast<float>(solid_angle(y)));
+        std::fill_n(result.begin() + static_cast<std::ptrdiff_t>(y * width), width, static_cast<float>(solid_angle(y)));
     return result;
 }
 

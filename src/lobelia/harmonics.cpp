@@ -66,7 +66,8 @@ Harmonics::Harmonics(std::size_t degree) : degree_(degree) {
     double first = std::sqrt(1 / (4 * k_pi));
     for (std::size_t m = 0; m <= degree; ++m) {
         // Q_m^m = sqrt(2) sqrt((2m + 1) / (4 pi (2m)!)) (2m - 1)!!, from one order to the next.
-        if (m > 0) first *= std::sqrt((m == 1 ? 2.0 : 1.0) * static_cast<double>(2 * m + 1) / static_cast<double>(2 * m));
+        if (m > 0)
+            first *= std::sqrt((m == 1 ? 2.0 : 1.0) * static_cast<double>(2 * m + 1) / static_cast<double>(2 * m));
         table_.push_back(static_cast<float>(first));
         const auto mm = static_cast<double>(m * m);
         for (std::size_t l = m + 1; l <= degree; ++l) {
@@ -112,8 +113,7 @@ Matrix rotation_matrix(const Rotation& r, std::size_t l) {
             const auto from = values(l, x, y, z), to = values(l, row(r[0]), row(r[1]), row(r[2]));
             const double weight = heights.weights[h] * 2 * k_pi / static_cast<double>(azimuths);
             for (std::size_t i = 0; i < size; ++i)
-                for (std::size_t j = 0; j < size; ++j)
-                    matrix[i * size + j] += weight * to[first + i] * from[first + j];
+                for (std::size_t j = 0; j < size; ++j) matrix[i * size + j] += weight * to[first + i] * from[first + j];
         }
     return matrix;
 }
@@ -122,9 +122,7 @@ namespace {
 
 void rotate_degree_1(const Rotation& r, std::span<const Rgb> c, std::span<Rgb> out) {
     // Y_1 = sqrt(3 / 4 pi) (y, z, x).
-    const auto turn = [&](auto channel) {
-        return rotate(r, Vec3{channel(c[2]), channel(c[0]), channel(c[1])});
-    };
+    const auto turn = [&](auto channel) { return rotate(r, Vec3{channel(c[2]), channel(c[0]), channel(c[1])}); };
     const Vec3 red = turn([](Rgb v) { return v.r; }), green = turn([](Rgb v) { return v.g; }),
                blue = turn([](Rgb v) { return v.b; });
     out[0] = {red.y, green.y, blue.y};
@@ -136,7 +134,8 @@ void rotate_degree_1(const Rotation& r, std::span<const Rgb> c, std::span<Rgb> o
 std::array<double, 5> rotate_quadratic_form(const Rotation& r, const std::array<double, 5>& c) {
     const double k = std::sqrt(15 / (4 * k_pi)), q = std::sqrt(5 / (16 * k_pi));
     const double xy = k * c[0] / 2, yz = k * c[1] / 2, xz = k * c[3] / 2;
-    const double m[3][3] = {{-q * c[2] + k * c[4] / 2, xy, xz}, {xy, -q * c[2] - k * c[4] / 2, yz}, {xz, yz, 2 * q * c[2]}};
+    const double m[3][3] = {
+        {-q * c[2] + k * c[4] / 2, xy, xz}, {xy, -q * c[2] - k * c[4] / 2, yz}, {xz, yz, 2 * q * c[2]}};
     const auto form = [&](Vec3 a, Vec3 b) {
         const double u[3] = {a.x, a.y, a.z}, v[3] = {b.x, b.y, b.z};
         double sum = 0;

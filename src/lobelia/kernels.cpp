@@ -40,8 +40,8 @@ HWY_INLINE void store(D d, V v, float* row, std::size_t j, std::size_t size) {
 /// Samples whose flux (radiance times solid angle) stays in the first-level cache beside their directions.
 constexpr std::size_t k_flux_part = 1024;
 
-/// Adds to out[first ..) the irradiance of one part of the samples at `Count` normals, and to `opposite`, unless that is
-/// null, the irradiance at the normals turned round.
+/// Adds to out[first ..) the irradiance of one part of the samples at `Count` normals, and to `opposite`, unless that
+/// is null, the irradiance at the normals turned round.
 template <std::size_t Count, class Opposite>
 void add_irradiance(DirectionView d_s, const float (*flux)[k_flux_part], DirectionView normals, std::size_t first,
                     MutableColourView out, Opposite opposite) {

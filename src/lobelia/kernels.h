@@ -31,12 +31,12 @@ void transform_rows(const float* rows, std::size_t count, const float* matrix, s
 /// entries, a multiple of k_lanes; sample j's function values are values[j * lanes ..], zero past the last lobe.
 struct Sequential {
     std::size_t lanes = 0;
-    float* b[3] = {};                ///< the coefficients, one array per channel
-    const float* values = nullptr;   ///< function values
-    const float* gains = nullptr;    ///< matrix gain: G^-1 values, laid out as `values`
-    float* per_lobe = nullptr;       ///< running average: sum of weights; progressive: running mean of B_i^2
-    const float* floor = nullptr;    ///< progressive: least denominator S_i, positive past the last lobe
-    float lowest = 0;                ///< coefficients are clamped to at least this
+    float* b[3] = {};               ///< the coefficients, one array per channel
+    const float* values = nullptr;  ///< function values
+    const float* gains = nullptr;   ///< matrix gain: G^-1 values, laid out as `values`
+    float* per_lobe = nullptr;      ///< running average: sum of weights; progressive: running mean of B_i^2
+    const float* floor = nullptr;   ///< progressive: least denominator S_i, positive past the last lobe
+    float lowest = 0;               ///< coefficients are clamped to at least this
 };
 
 /// Steps: the share of each sample, step[j]. b += step value (v - est) / per_lobe after per_lobe += step value.

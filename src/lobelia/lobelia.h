@@ -2,8 +2,9 @@
 //
 //   samples -> encoder -> coefficients -> evaluate -> judge
 //
-// Samples are radiances with a direction and a share of the sphere or the hemisphere. An environment image gives one for
-// each of its texels (texel_samples) or at chosen directions (directed_samples); a path tracer makes them as it goes.
+// Samples are radiances with a direction and a share of the sphere or the hemisphere. An environment image gives one
+// for each of its texels (texel_samples) or at chosen directions (directed_samples); a path tracer makes them as it
+// goes.
 //
 // A basis is a short list of functions of a direction, such as twelve spherical Gaussians ("sg12") or the spherical
 // harmonics up to degree 2 ("sh2"). An encoder takes samples as they arrive (Accumulator: add, merge, solve) and finds
@@ -15,11 +16,12 @@
 //
 // How good was it? irradiance_sum is the exact irradiance of an environment, errors() measures against it.
 //
-// Directions are unit vectors that point away from the surface; radiance is in W/(m^2 sr), irradiance in W/m^2 and never
-// divided by pi: docs/conventions.md.
+// Directions are unit vectors that point away from the surface; radiance is in W/(m^2 sr), irradiance in W/m^2 and
+// never divided by pi: docs/conventions.md.
 #pragma once
 
-// clang-format off: the order tells the story.
+// The order tells the story.
+// clang-format off
 
 // Numbers, and what functions return that may fail.
 #include "lobelia/math.h"

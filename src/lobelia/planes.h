@@ -93,4 +93,13 @@ inline void set_entry(const PlanesView<3, float>& view, std::size_t i, Rgb c) {
     set_entry(view, i, Vec3{c.r, c.g, c.b});
 }
 
+/// Every colour times `factor`.
+inline void scale(const MutableColourView& colours, float factor) {
+    for (std::size_t k = 0; k < 3; ++k)
+        for (std::size_t i = 0; i < colours.size; ++i) colours.channel(k)[i] *= factor;
+}
+
+/// Turns irradiance E into E / pi, the radiance that leaves a white diffuse surface.
+inline constexpr auto k_over_pi = static_cast<float>(1 / k_pi);
+
 }  // namespace lobelia

@@ -20,17 +20,10 @@ double milliseconds_since(Clock::time_point start) {
 
 /// What one domain is sampled by and judged against.
 struct Stage {
-    Samples samples;                  ///< in the order in which encoders see them
-    Samples judged;                   ///< directions, reference radiance and weights of the judging grid
+    Samples samples;  ///< in the order in which encoders see them
+    Samples judged;   ///< directions, reference radiance and weights of the judging grid
     Colours reference_irradiance_over_pi;
 };
-
-void scale(const MutableColourView& colours, float factor) {
-    for (std::size_t k = 0; k < 3; ++k)
-        for (std::size_t i = 0; i < colours.size; ++i) colours.channel(k)[i] *= factor;
-}
-
-constexpr auto k_over_pi = static_cast<float>(1 / k_pi);
 
 constexpr std::size_t k_normals_at_once = 512;
 
@@ -185,7 +178,8 @@ class Run {
             e.negative_share = negative;
         }
         if (options_.pictures) {
-            auto pictures = signed_irradiance_over_pi(*evaluator, encodings, k_irradiance_picture.directions(reading.run->basis->domain()));
+            auto pictures = signed_irradiance_over_pi(*evaluator, encodings,
+                                                      k_irradiance_picture.directions(reading.run->basis->domain()));
             for (std::size_t k = 0; k < encodings.size(); ++k)
                 reading.pictures[encodings[k]->encoder] = std::move(pictures[k]);
         }
@@ -197,7 +191,8 @@ class Run {
         reading.nanoseconds = 1e6 * milliseconds_since(start) / static_cast<double>(timed.size);
     }
 
-    /// E / pi of several encodings of one basis, what is below 0 kept; a linear evaluator's weights are computed once for all.
+    /// E / pi of several encodings of one basis, what is below 0 kept; a linear evaluator's weights are computed once
+    /// for all.
     static std::vector<Colours> signed_irradiance_over_pi(const Evaluator& evaluator,
                                                           const std::vector<const Encoding*>& encodings,
                                                           DirectionView normals) {
@@ -232,9 +227,11 @@ class Run {
         if (options_.pictures) {
             for (auto& reading : readings_)
                 for (auto& [encoder, picture] : reading.pictures)
-                    pictures_.irradiance_over_pi[CodecName{reading.run->basis->name(), encoder, reading.evaluator}
-                                                     .str()] = std::move(picture);
-            for (auto& e : encodings_) pictures_.radiance[e.run->basis->name() + "/" + e.encoder] = std::move(e.picture);
+                    pictures_
+                        .irradiance_over_pi[CodecName{reading.run->basis->name(), encoder, reading.evaluator}.str()] =
+                        std::move(picture);
+            for (auto& e : encodings_)
+                pictures_.radiance[e.run->basis->name() + "/" + e.encoder] = std::move(e.picture);
             result.pictures = std::move(pictures_);
         }
         return result;
@@ -245,8 +242,9 @@ class Run {
         for (const BasisRun& run : runs_)
             if (run.basis->size() <= k_most_converging_size)
                 tasks.push_back({run.basis, run.encoders, {k_sequences.begin(), k_sequences.end()}});
-        return measure_convergence(environment_, tasks, {.seed = options_.seed},
-                                   [&](double done) { report(k_before_convergence + done * (1 - k_before_convergence)); });
+        return measure_convergence(environment_, tasks, {.seed = options_.seed}, [&](double done) {
+            report(k_before_convergence + done * (1 - k_before_convergence));
+        });
     }
 
     [[nodiscard]] const Encoding& encoding(const CodecName& name) const {

@@ -16,12 +16,12 @@ namespace lobelia {
 using Progress = std::function<void(double)>;
 
 struct ComparisonOptions {
-    std::optional<Sequence> sequence;   ///< none: every texel is one sample, once
-    std::optional<std::size_t> samples;  ///< none: all texels, or 20,000 of a sequence; else that many
-    std::uint32_t seed = 1;             ///< of the sequence and of the shuffle
-    std::size_t most_texels = 131072;   ///< larger environments are reduced first, energy kept
-    bool pictures = true;               ///< evaluate the pictures of a page too
-    bool convergence = true;            ///< and measure excess error against sample count
+    std::optional<Sequence> sequence = {};    ///< none: every texel is one sample, once
+    std::optional<std::size_t> samples = {};  ///< none: all texels, or 20,000 of a sequence; else that many
+    std::uint32_t seed = 1;                   ///< of the sequence and of the shuffle
+    std::size_t most_texels = 131072;         ///< larger environments are reduced first, energy kept
+    bool pictures = true;                     ///< evaluate the pictures of a page too
+    bool convergence = true;                  ///< and measure excess error against sample count
 };
 
 /// One codec's result.
@@ -29,8 +29,8 @@ struct Method {
     CodecName name;
     Domain domain = Domain::sphere;
     std::vector<Rgb> c;
-    Errors radiance;              ///< of L, at the texels of the judging grid
-    Errors irradiance_over_pi;    ///< of E / pi, at the same directions as normals
+    Errors radiance;            ///< of L, at the texels of the judging grid
+    Errors irradiance_over_pi;  ///< of E / pi, at the same directions as normals
     double encode_ms = 0;
     double evaluate_ns_per_normal = 0;
 };
@@ -65,12 +65,12 @@ inline constexpr LatLong k_radiance_picture{128, 64};
 inline constexpr LatLong k_irradiance_picture{64, 32};
 
 struct Comparison {
-    std::string recipe;          ///< empty for the default mode
-    std::string reference;       ///< what the reference irradiance is
-    std::string sequence;        ///< "texels" or a sequence's name
-    std::size_t samples = 0;     ///< given to each encoder over the sphere
+    std::string recipe;       ///< empty for the default mode
+    std::string reference;    ///< what the reference irradiance is
+    std::string sequence;     ///< "texels" or a sequence's name
+    std::size_t samples = 0;  ///< given to each encoder over the sphere
     std::uint32_t seed = 0;
-    LatLong grid;                ///< of the environment after reduction
+    LatLong grid;  ///< of the environment after reduction
     Rgb mean_radiance;
     std::vector<Method> methods;
     std::vector<Convergence> convergence;

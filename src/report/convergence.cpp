@@ -82,8 +82,9 @@ double squared_norm(const Matrix& gram, std::span<const Rgb> b) {
     double sum = 0;
     for (std::size_t i = 0; i < b.size(); ++i)
         for (std::size_t j = 0; j < b.size(); ++j)
-            sum += gram[i * b.size() + j] * (static_cast<double>(b[i].r) * b[j].r + static_cast<double>(b[i].g) * b[j].g +
-                                             static_cast<double>(b[i].b) * b[j].b);
+            sum +=
+                gram[i * b.size() + j] * (static_cast<double>(b[i].r) * b[j].r + static_cast<double>(b[i].g) * b[j].g +
+                                          static_cast<double>(b[i].b) * b[j].b);
     return std::max(0.0, sum);
 }
 

@@ -41,8 +41,7 @@ json to_json(const Method& m, DirectionView judged) {
             {"irradiance_over_pi_rms_unweighted", m.irradiance_over_pi.rms_unweighted},
             {"irradiance_smape", m.irradiance_over_pi.smape},
             {"irradiance_relmse", m.irradiance_over_pi.relmse},
-            {"irradiance_worst",
-             {{"error", m.irradiance_over_pi.worst}, {"direction", {worst.x, worst.y, worst.z}}}},
+            {"irradiance_worst", {{"error", m.irradiance_over_pi.worst}, {"direction", {worst.x, worst.y, worst.z}}}},
             {"negative_share", m.radiance.negative_share},
             {"irradiance_negative_share", m.irradiance_over_pi.negative_share},
             {"encode_ms", m.encode_ms},
@@ -69,27 +68,26 @@ json to_json(const Comparison& comparison, const EnvironmentInfo& environment) {
             judged[method.domain] = texel_samples(Image(grid.width, grid.height), method.domain);
         methods.push_back(to_json(method, judged[method.domain].view().directions()));
     }
-    json report = {
-        {"lobelia", k_version},
-        {"format", k_report_format},
-        {"environment",
-         {{"name", environment.name},
-          {"source_width", environment.source.width},
-          {"source_height", environment.source.height},
-          {"width", comparison.grid.width},
-          {"height", comparison.grid.height},
-          {"mean_radiance", triple(comparison.mean_radiance)},
-          {"sanitized_texels", environment.sanitized_texels},
-          {"warnings", environment.warnings}}},
-        {"settings",
-         {{"recipe", comparison.recipe.empty() ? json(nullptr) : json(comparison.recipe)},
-          {"samples", comparison.samples},
-          {"sequence", comparison.sequence},
-          {"seed", comparison.seed},
-          {"reference", comparison.reference},
-          {"judged_width", grid.width},
-          {"judged_height", grid.height}}},
-        {"methods", std::move(methods)}};
+    json report = {{"lobelia", k_version},
+                   {"format", k_report_format},
+                   {"environment",
+                    {{"name", environment.name},
+                     {"source_width", environment.source.width},
+                     {"source_height", environment.source.height},
+                     {"width", comparison.grid.width},
+                     {"height", comparison.grid.height},
+                     {"mean_radiance", triple(comparison.mean_radiance)},
+                     {"sanitized_texels", environment.sanitized_texels},
+                     {"warnings", environment.warnings}}},
+                   {"settings",
+                    {{"recipe", comparison.recipe.empty() ? json(nullptr) : json(comparison.recipe)},
+                     {"samples", comparison.samples},
+                     {"sequence", comparison.sequence},
+                     {"seed", comparison.seed},
+                     {"reference", comparison.reference},
+                     {"judged_width", grid.width},
+                     {"judged_height", grid.height}}},
+                   {"methods", std::move(methods)}};
     if (!comparison.convergence.empty()) {
         json curves = json::array();
         for (const auto& curve : comparison.convergence) curves.push_back(to_json(curve));

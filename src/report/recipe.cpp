@@ -12,7 +12,6 @@ namespace {
 
 constexpr std::size_t k_sample_count = 20000;
 constexpr std::size_t k_reference_draws = 5000;
-constexpr auto k_over_pi = static_cast<float>(1 / k_pi);
 
 /// A recipe names its methods, as a published table does: beside codecs.cpp no other file computes by name.
 constexpr const char* k_basis = "sg12";
@@ -64,12 +63,13 @@ Colours noisy_irradiance_over_pi(const Image& environment) {
     for (std::size_t j = 0; j < k_reference_draws; ++j) {
         const std::size_t column = generator() % grid.size();
         const std::size_t i = table.choose(column, static_cast<double>(generator()) * 0x1p-32);
-        const double share = solid_angles[i] * (sum / static_cast<double>(weights[i])) / k_reference_draws;
+        // Where float32 let the table end on a texel of no weight, it counts for nothing.
+        const double share =
+            weights[i] > 0 ? solid_angles[i] * (sum / static_cast<double>(weights[i])) / k_reference_draws : 0;
         draws.set(j, {grid.direction(i), environment.pixels[i], static_cast<float>(share)});
     }
     out = lat_long_irradiance(draws, grid);
-    for (std::size_t k = 0; k < 3; ++k)
-        for (std::size_t i = 0; i < out.size(); ++i) out.channel(k)[i] *= k_over_pi;
+    scale(out, k_over_pi);
     return out;
 }
 
@@ -96,9 +96,41 @@ Errors recipe_errors(ColourView a, ColourView reference, std::span<const float> 
 Colours irradiance_over_pi(const Codec& codec, std::span<const Rgb> c, DirectionView normals) {
     Colours out(normals.size);
     codec.irradiance(c, normals, out);
-    for (std::size_t k = 0; k < 3; ++k)
-        for (std::size_t i = 0; i < out.size(); ++i) out.channel(k)[i] *= k_over_pi;
+    scale(out, k_over_pi);
     return out;
+}
+
+/// What every method is held against.
+struct Judge {
+    Samples texels;
+    Colours irradiance_over_pi;
+};
+
+Method run_method(const Codec& codec, SampleView samples, const Judge& judge) {
+    using Clock = std::chrono::steady_clock;
+    const SampleView texels = judge.texels;
+    const std::span<const float> weights{texels.solid_angles(), texels.size};
+    Method method{codec.name(), Domain::sphere, {}, {}, {}, 0, 0};
+    const auto start = Clock::now();
+    method.c = codec.encode(samples);
+    method.encode_ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+
+    Colours radiance(texels.size);
+    codec.radiance(method.c, texels.directions(), radiance);
+    method.radiance = recipe_errors(radiance, texels.radiance(), weights);
+    const auto read_start = Clock::now();
+    const Colours irradiance = irradiance_over_pi(codec, method.c, texels.directions());
+    method.evaluate_ns_per_normal =
+        std::chrono::duration<double, std::nano>(Clock::now() - read_start).count() / static_cast<double>(texels.size);
+    method.irradiance_over_pi = recipe_errors(irradiance, judge.irradiance_over_pi, weights);
+    return method;
+}
+
+void add_pictures(ComparisonPictures& pictures, const Codec& codec, std::span<const Rgb> c) {
+    Colours& picture = pictures.radiance[codec.name().basis + "/" + codec.name().encoder];
+    picture = Colours(k_radiance_picture.size());
+    codec.radiance(c, k_radiance_picture.directions(), picture);
+    pictures.irradiance_over_pi[codec.name().str()] = irradiance_over_pi(codec, c, k_irradiance_picture.directions());
 }
 
 }  // namespace
@@ -107,14 +139,7 @@ std::string_view recipe_name(Recipe recipe) { return recipe == Recipe::published
 
 Comparison run_recipe(Recipe recipe, const Image& environment, const ComparisonOptions& options,
                       const Progress& progress) {
-    using Clock = std::chrono::steady_clock;
     const LatLong grid = lat_long(environment);
-    const auto basis = make_basis(k_basis).value();
-    const auto evaluator = make_evaluator(k_evaluator, *basis).value();
-    const Samples texels = texel_samples(environment);
-    const SampleView texel_view = texels;
-    const std::span<const float> weights{texel_view.solid_angles(), texel_view.size};
-
     Comparison result;
     result.recipe = recipe_name(recipe);
     result.reference = "5000 draws by luminance and solid angle, the same for every normal";
@@ -123,14 +148,17 @@ Comparison run_recipe(Recipe recipe, const Image& environment, const ComparisonO
     result.seed = std::mt19937::default_seed;
     result.grid = grid;
     result.mean_radiance = mean_radiance(environment);
-    const Colours reference = noisy_irradiance_over_pi(environment);
+    const Judge judge{texel_samples(environment), noisy_irradiance_over_pi(environment)};
     const Samples ordered = directed_samples(
         environment, uniform_directions(Domain::sphere, *sequence_from_name(result.sequence), k_sample_count, 0),
         Domain::sphere);
     if (options.pictures)
-        result.pictures.references[Domain::sphere] = {radiance_of(resize(environment, k_judging_grid)), reference};
+        result.pictures.references[Domain::sphere] = {radiance_of(resize(environment, k_judging_grid)),
+                                                      judge.irradiance_over_pi};
 
     // Both shuffled methods draw on one generator, one after the other.
+    const auto basis = make_basis(k_basis).value();
+    const auto evaluator = make_evaluator(k_evaluator, *basis).value();
     std::mt19937 generator;
     const auto& methods = methods_of(recipe);
     for (std::size_t i = 0; i < methods.size(); ++i) {
@@ -139,27 +167,8 @@ Comparison run_recipe(Recipe recipe, const Image& environment, const ComparisonO
         const Samples samples = methods[i].order == RecipeMethod::shuffled
                                     ? reordered(ordered, shuffled_order(k_sample_count, generator))
                                     : ordered;
-        Method method{name, Domain::sphere, {}, {}, {}, 0, 0};
-        const auto start = Clock::now();
-        method.c = codec.encode(samples);
-        method.encode_ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-
-        Colours radiance(grid.size());
-        codec.radiance(method.c, texel_view.directions(), radiance);
-        method.radiance = recipe_errors(radiance, texel_view.radiance(), weights);
-        const auto read_start = Clock::now();
-        const Colours irradiance = irradiance_over_pi(codec, method.c, texel_view.directions());
-        method.evaluate_ns_per_normal = std::chrono::duration<double, std::nano>(Clock::now() - read_start).count() /
-                                        static_cast<double>(grid.size());
-        method.irradiance_over_pi = recipe_errors(irradiance, reference, weights);
-        if (options.pictures) {
-            Colours& picture = result.pictures.radiance[name.basis + "/" + name.encoder];
-            picture = Colours(k_radiance_picture.size());
-            codec.radiance(method.c, k_radiance_picture.directions(), picture);
-            result.pictures.irradiance_over_pi[name.str()] =
-                irradiance_over_pi(codec, method.c, k_irradiance_picture.directions());
-        }
-        result.methods.push_back(std::move(method));
+        result.methods.push_back(run_method(codec, samples, judge));
+        if (options.pictures) add_pictures(result.pictures, codec, result.methods.back().c);
         if (progress) progress(static_cast<double>(i + 1) / static_cast<double>(methods.size()));
     }
     return result;

@@ -45,10 +45,11 @@ std::vector<std::string> all_encoders(const std::shared_ptr<const Basis>& basis)
 void add_basis(Study& study, const std::vector<Sampling>& columns,
                const std::vector<std::vector<Convergence>>& by_column, const std::string& basis) {
     const auto& counts = by_column[0][0].samples;
-    Study::Table relative{basis + ": excess |b - b*|_G / |b*|_G at N = " + count_list(counts),
-                          "b* is what the encoder strives for: least squares, its non-negative form, or the joint norm.",
-                          {"encoder"},
-                          {}};
+    Study::Table relative{
+        basis + ": excess |b - b*|_G / |b*|_G at N = " + count_list(counts),
+        "b* is what the encoder strives for: least squares, its non-negative form, or the joint norm.",
+        {"encoder"},
+        {}};
     Study::Table absolute{basis + ": excess as root mean square radiance [W/(m^2 sr)] at N = " + count_list(counts),
                           "The same, not divided by |b*|.",
                           {"encoder"},
@@ -69,7 +70,7 @@ void add_basis(Study& study, const std::vector<Sampling>& columns,
     study.tables.push_back(std::move(absolute));
     for (std::size_t k = 0; k < columns.size(); ++k) {
         Study::Plot plot{basis + ", " + columns[k].title, "", "samples", "excess error", Study::Axis::logarithmic,
-                         Study::Axis::logarithmic, {}};
+                         Study::Axis::logarithmic,        {}};
         for (const auto& curve : by_column[k])
             plot.series.push_back({curve.encoder, {curve.samples.begin(), curve.samples.end()}, curve.excess});
         study.plots.push_back(std::move(plot));

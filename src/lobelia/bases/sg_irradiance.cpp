@@ -52,8 +52,7 @@ struct Meder {
     static HWY_INLINE V hemisphere(D d, V sharpness, V c) {
         const V one = hn::Set(d, 1.0f), two_pi = hn::Set(d, static_cast<float>(2 * k_pi));
         const V numerator = hn::Mul(sharpness, hn::MulAdd(hn::Set(d, 1.6988f), sharpness, hn::Set(d, 10.8438f)));
-        const V denominator =
-            hn::MulAdd(sharpness, hn::Add(sharpness, hn::Set(d, 6.2201f)), hn::Set(d, 10.2415f));
+        const V denominator = hn::MulAdd(sharpness, hn::Add(sharpness, hn::Set(d, 6.2201f)), hn::Set(d, 10.2415f));
         const V t = hn::Mul(hn::Sqrt(sharpness), hn::Div(numerator, denominator));
         const V tc = hn::Max(hn::Mul(t, c), hn::Set(d, -80.0f));
         const V rise = hn::Neg(hn::Expm1(d, hn::Neg(hn::Add(t, tc))));
@@ -95,8 +94,8 @@ struct Tokuyoshi {
     static HWY_INLINE V eval(D d, std::span<const float> k, V c) {
         const V t = hn::Set(d, k[0]), c2 = hn::Mul(c, c), t2 = hn::Mul(t, t);
         const V smooth = hn::MulAdd(c, erfc(d, hn::Neg(hn::Mul(t, c))), hn::Set(d, k[1]));
-        const V gauss = hn::Mul(hn::Exp(d, hn::Neg(hn::Mul(t2, c2))),
-                                hn::Expm1(d, hn::Mul(t2, hn::Sub(c2, hn::Set(d, 1.0f)))));
+        const V gauss =
+            hn::Mul(hn::Exp(d, hn::Neg(hn::Mul(t2, c2))), hn::Expm1(d, hn::Mul(t2, hn::Sub(c2, hn::Set(d, 1.0f)))));
         const V blend = hn::NegMulAdd(gauss, hn::Set(d, k[2]), hn::Mul(hn::Set(d, 0.5f), smooth));
         return hn::MulAdd(blend, hn::Set(d, k[4]), hn::Set(d, k[3]));
     }
@@ -140,24 +139,32 @@ void fill_row(const Vec3& axis, std::span<const float> k, DirectionView block, f
     const D d;
     const V px = hn::Set(d, axis.x), py = hn::Set(d, axis.y), pz = hn::Set(d, axis.z);
     for (std::size_t j = 0; j < block.size; j += hn::Lanes(d)) {
-        const V c = hn::MulAdd(px, hn::LoadU(d, block.channel(0) + j),
-                               hn::MulAdd(py, hn::LoadU(d, block.channel(1) + j),
-                                          hn::Mul(pz, hn::LoadU(d, block.channel(2) + j))));
+        const V c = hn::MulAdd(
+            px, hn::LoadU(d, block.channel(0) + j),
+            hn::MulAdd(py, hn::LoadU(d, block.channel(1) + j), hn::Mul(pz, hn::LoadU(d, block.channel(2) + j))));
         hn::StoreU(Formula::eval(d, k, c), d, row + j);
     }
 }
 
 void FillRow(SgIrradiance kind, const Vec3& axis, std::span<const float> k, DirectionView block, float* row) {
     switch (kind) {
-        case SgIrradiance::inner_product: return fill_row<InnerProduct>(axis, k, block, row);
-        case SgIrradiance::punctual: return fill_row<Punctual>(axis, k, block, row);
-        case SgIrradiance::hill: return fill_row<Hill>(axis, k, block, row);
-        case SgIrradiance::meder: return fill_row<Meder>(axis, k, block, row);
-        case SgIrradiance::tokuyoshi: return fill_row<Tokuyoshi>(axis, k, block, row);
+        case SgIrradiance::inner_product:
+            return fill_row<InnerProduct>(axis, k, block, row);
+        case SgIrradiance::punctual:
+            return fill_row<Punctual>(axis, k, block, row);
+        case SgIrradiance::hill:
+            return fill_row<Hill>(axis, k, block, row);
+        case SgIrradiance::meder:
+            return fill_row<Meder>(axis, k, block, row);
+        case SgIrradiance::tokuyoshi:
+            return fill_row<Tokuyoshi>(axis, k, block, row);
         case SgIrradiance::odd_exact:
-        case SgIrradiance::odd_exact_2: return fill_row<OddExact>(axis, k, block, row);
-        case SgIrradiance::polynomial: return fill_row<Polynomial>(axis, k, block, row);
-        case SgIrradiance::exact: return fill_row<Exact>(axis, k, block, row);
+        case SgIrradiance::odd_exact_2:
+            return fill_row<OddExact>(axis, k, block, row);
+        case SgIrradiance::polynomial:
+            return fill_row<Polynomial>(axis, k, block, row);
+        case SgIrradiance::exact:
+            return fill_row<Exact>(axis, k, block, row);
     }
 }
 
@@ -215,19 +222,15 @@ Constants odd_exact_constants(double l, double k, double m) {
 
 Constants n1_constants(double l) {
     const double b3 = .01196630;
-    return odd_exact_constants(l,
-                               l * l * (.15544454 + l * (.02048363 + .565 * b3 * l)) /
-                                   (1 + l * (.16346704 + l * (.04498634 + b3 * l))),
-                               0);
+    return odd_exact_constants(
+        l, l * l * (.15544454 + l * (.02048363 + .565 * b3 * l)) / (1 + l * (.16346704 + l * (.04498634 + b3 * l))), 0);
 }
 
 Constants n2_constants(double l) {
     const double b3 = .06156752;
-    return odd_exact_constants(l,
-                               l * l * (.17497065 + l * (.05765063 + .565 * b3 * l)) /
-                                   (1 + l * (.38770256 + l * (.15044952 + b3 * l))),
-                               .0042626988 * l * l * l /
-                                   (1 + l * (-.1534013437 + l * (.0324566805 + l * .00061038514))));
+    return odd_exact_constants(
+        l, l * l * (.17497065 + l * (.05765063 + .565 * b3 * l)) / (1 + l * (.38770256 + l * (.15044952 + b3 * l))),
+        .0042626988 * l * l * l / (1 + l * (-.1534013437 + l * (.0324566805 + l * .00061038514))));
 }
 
 Constants polynomial_constants(double l) {
@@ -249,15 +252,24 @@ Constants exact_constants(double l) {
 
 Constants constants(SgIrradiance kind, double sharpness) {
     switch (kind) {
-        case SgIrradiance::inner_product: return inner_product_constants(sharpness);
-        case SgIrradiance::punctual: return punctual_constants(sharpness);
-        case SgIrradiance::hill: return hill_constants(sharpness);
-        case SgIrradiance::meder: return meder_constants(sharpness);
-        case SgIrradiance::tokuyoshi: return tokuyoshi_constants(sharpness);
-        case SgIrradiance::odd_exact: return n1_constants(sharpness);
-        case SgIrradiance::odd_exact_2: return n2_constants(sharpness);
-        case SgIrradiance::polynomial: return polynomial_constants(sharpness);
-        case SgIrradiance::exact: return exact_constants(sharpness);
+        case SgIrradiance::inner_product:
+            return inner_product_constants(sharpness);
+        case SgIrradiance::punctual:
+            return punctual_constants(sharpness);
+        case SgIrradiance::hill:
+            return hill_constants(sharpness);
+        case SgIrradiance::meder:
+            return meder_constants(sharpness);
+        case SgIrradiance::tokuyoshi:
+            return tokuyoshi_constants(sharpness);
+        case SgIrradiance::odd_exact:
+            return n1_constants(sharpness);
+        case SgIrradiance::odd_exact_2:
+            return n2_constants(sharpness);
+        case SgIrradiance::polynomial:
+            return polynomial_constants(sharpness);
+        case SgIrradiance::exact:
+            return exact_constants(sharpness);
     }
     return {};
 }

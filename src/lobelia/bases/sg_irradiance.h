@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "lobelia/basis.h"
 #include "lobelia/bases/gaussian.h"
+#include "lobelia/basis.h"
 
 namespace lobelia {
 

@@ -56,7 +56,7 @@ Study::Table error_table() {
 
 Study::Plot error_plot() {
     Study::Plot plot{"Largest error against sharpness", "Each formula in float32.", "sharpness", "largest |error| / I",
-                     Study::Axis::logarithmic, Study::Axis::logarithmic, {}};
+                     Study::Axis::logarithmic,          Study::Axis::logarithmic,   {}};
     for (const auto& entry : sg_irradiance_list()) {
         Study::Series series{std::string(entry.name), {}, {}};
         for (double sharpness = .1; sharpness < 1001; sharpness *= std::sqrt(2.0)) {
@@ -78,7 +78,11 @@ std::vector<double> angle_grid() {
 Study::Plot cosine_plot() {
     Study::Plot plot{"The clamped cosine and its approximations",
                      "What each irradiance formula stands on: the cosine as one lobe, or as a few harmonics.",
-                     "angle [degrees]", "value", Study::Axis::linear, Study::Axis::linear, {}};
+                     "angle [degrees]",
+                     "value",
+                     Study::Axis::linear,
+                     Study::Axis::linear,
+                     {}};
     const auto angles = angle_grid();
     const auto add = [&](const std::string& name, const auto& f) {
         Study::Series series{name, angles, {}};
@@ -106,7 +110,11 @@ Study::Plot cosine_plot() {
 Study::Plot irradiance_plot(double sharpness) {
     Study::Plot plot{"Irradiance of a lobe of sharpness " + table_number(sharpness),
                      "E / I against the angle between normal and axis; the exact curve is the numeric integral.",
-                     "angle [degrees]", "E / I", Study::Axis::linear, Study::Axis::linear, {}};
+                     "angle [degrees]",
+                     "E / I",
+                     Study::Axis::linear,
+                     Study::Axis::linear,
+                     {}};
     const auto angles = angle_grid();
     std::vector<float> cosines;
     Study::Series numeric{"numeric integral", angles, {}};

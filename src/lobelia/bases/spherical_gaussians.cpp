@@ -1,6 +1,7 @@
 // The basis of spherical Gaussians: lobe sets, vectorised values, Gram matrices in closed form or by quadrature.
 #include "lobelia/bases/spherical_gaussians.h"
 
+#include <algorithm>
 #include <charconv>
 #include <fstream>
 #include <optional>
@@ -85,8 +86,7 @@ Result<std::vector<Lobe>> parse_lobes(std::istream& in, const std::string& path)
             if (!(sharpness >= 0 && sharpness <= 1e4f)) return Error{place + "sharpness must be 0 to 10000"};
             lobes.push_back({normalize(axis), sharpness});
         }
-        if (lobes.size() > k_most_lobes)
-            return Error{place + "more than " + std::to_string(k_most_lobes) + " lobes"};
+        if (lobes.size() > k_most_lobes) return Error{place + "more than " + std::to_string(k_most_lobes) + " lobes"};
     }
     if (lobes.empty()) return Error{path + ": no lobes in it"};
     return lobes;
@@ -157,8 +157,7 @@ Result<std::shared_ptr<const Basis>> SphericalGaussians::from_name(std::string_v
     std::optional<float> sharpness;
     if (const auto at = kind.find('@'); at != std::string_view::npos) {
         const auto parsed = parse_sharpness(kind.substr(at + 1));
-        if (!parsed)
-            return Error{"basis \"" + std::string(name) + "\": the sharpness after @ must be 0.01 to 10000"};
+        if (!parsed) return Error{"basis \"" + std::string(name) + "\": the sharpness after @ must be 0.01 to 10000"};
         sharpness = *parsed;
         kind = kind.substr(0, at);
     }
@@ -178,8 +177,12 @@ void SphericalGaussians::values(DirectionView block, float* rows) const {
 std::string SphericalGaussians::description() const {
     std::ostringstream text;
     text << lobes_.size() << " spherical Gaussians over the "
-         << (domain_ == Domain::sphere ? "sphere" : "hemisphere z >= 0") << ", sharpness " << lobes_[0].sharpness;
-    if (lobes_.back().sharpness == 0) text << ", the last one ambient";
+         << (domain_ == Domain::sphere ? "sphere" : "hemisphere z >= 0") << ", sharpness ";
+    const auto [low, high] = std::minmax_element(
+        lobes_.begin(), lobes_.end(), [](const Lobe& a, const Lobe& b) { return a.sharpness < b.sharpness; });
+    text << low->sharpness;
+    if (high->sharpness != low->sharpness) text << " to " << high->sharpness;
+    if (low->sharpness == 0) text << " (0 is ambient)";
     return text.str();
 }
 

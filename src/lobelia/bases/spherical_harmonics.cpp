@@ -14,7 +14,9 @@ class ConvolvedHarmonics final : public LinearEvaluator {
         return negative_ == Negative::clamped ? "convolution" : "convolution-signed";
     }
     [[nodiscard]] Negative negative() const override { return negative_; }
-    [[nodiscard]] Accuracy accuracy() const override { return {"every degree", "1e-6 of the largest E (float32 rounding)"}; }
+    [[nodiscard]] Accuracy accuracy() const override {
+        return {"every degree", "1e-6 of the largest E (float32 rounding)"};
+    }
     [[nodiscard]] std::size_t size() const override { return harmonics_.size(); }
     void values(DirectionView block, float* rows) const override {
         harmonics_.values(block, rows);
@@ -33,7 +35,8 @@ class ConvolvedHarmonics final : public LinearEvaluator {
 }  // namespace
 
 Result<std::shared_ptr<const Basis>> SphericalHarmonics::from_name(std::string_view name) {
-    if (name.size() != 3 || !name.starts_with("sh") || name[2] < '1' || name[2] > '0' + static_cast<int>(k_highest_degree))
+    if (name.size() != 3 || !name.starts_with("sh") || name[2] < '1' ||
+        name[2] > '0' + static_cast<int>(k_highest_degree))
         return std::shared_ptr<const Basis>();
     return std::shared_ptr<const Basis>(std::make_shared<SphericalHarmonics>(static_cast<std::size_t>(name[2] - '0')));
 }

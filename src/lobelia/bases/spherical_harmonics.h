@@ -22,7 +22,8 @@ class SphericalHarmonics final : public Basis {
     [[nodiscard]] bool is_non_negative() const override { return false; }
     [[nodiscard]] Matrix gram() const override;
     [[nodiscard]] std::vector<double> integrals() const override;
-    /// convolution: E(n) = sum A_l L_lm Y_lm(n), negative L and E read as 0, as shaders do. convolution-signed: as it is.
+    /// convolution: E(n) = sum A_l L_lm Y_lm(n), negative L and E read as 0, as shaders do. convolution-signed: as it
+    /// is.
     [[nodiscard]] std::vector<std::string> evaluator_names() const override {
         return {"convolution", "convolution-signed"};
     }

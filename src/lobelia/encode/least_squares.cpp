@@ -14,6 +14,7 @@ std::vector<double> non_negative_least_squares(const Matrix& gram, std::span<con
     const Eigen::VectorXd target = Eigen::Map<const Eigen::VectorXd>(m.data(), n);
     Eigen::VectorXd b = Eigen::VectorXd::Zero(n);
     std::vector<Eigen::Index> passive;
+    std::vector<bool> barred(m.size(), false);
     const double tolerance = 1e-12 * std::max(target.cwiseAbs().maxCoeff(), 1e-300);
 
     // The unconstrained solution on the passive set alone.
@@ -27,7 +28,7 @@ std::vector<double> non_negative_least_squares(const Matrix& gram, std::span<con
         Eigen::Index best = -1;
         for (Eigen::Index i = 0; i < n; ++i)
             if (std::find(passive.begin(), passive.end(), i) == passive.end() && gradient(i) > tolerance &&
-                (best < 0 || gradient(i) > gradient(best)))
+                !barred[static_cast<std::size_t>(i)] && (best < 0 || gradient(i) > gradient(best)))
                 best = i;
         if (best < 0) break;
         passive.push_back(best);
@@ -48,6 +49,11 @@ std::vector<double> non_negative_least_squares(const Matrix& gram, std::span<con
             if (!passive.empty()) s = solve_passive();
         }
         for (std::size_t k = 0; k < passive.size(); ++k) b(passive[k]) = s(static_cast<Eigen::Index>(k));
+
+        // What rounding fixes at 0 again at once would be freed for ever; bar it until something else has moved.
+        const bool stayed = std::find(passive.begin(), passive.end(), best) != passive.end();
+        if (stayed) std::fill(barred.begin(), barred.end(), false);
+        barred[static_cast<std::size_t>(best)] = !stayed;
     }
     return {b.data(), b.data() + n};
 }

@@ -130,16 +130,21 @@ class MomentEncoder final : public Encoder {
 
     [[nodiscard]] MatrixXd coefficients(std::span<const float> state, const MatrixXd& m, double normalise) const {
         switch (solver_) {
-            case MomentSolver::projection: return scale_ * m;
-            case MomentSolver::analytic_gram: return factor_.solve(m);
-            case MomentSolver::sampled_gram: return sampled_gram(state, normalise).ldlt().solve(m);
+            case MomentSolver::projection:
+                return scale_ * m;
+            case MomentSolver::analytic_gram:
+                return factor_.solve(m);
+            case MomentSolver::sampled_gram:
+                return sampled_gram(state, normalise).ldlt().solve(m);
             case MomentSolver::regularised: {
                 const Blend blend = blended(state, m, normalise);
                 return blend.gram.ldlt().solve(blend.m);
             }
-            case MomentSolver::non_negative: return solve_non_negative(sampled_gram(state, normalise), m);
+            case MomentSolver::non_negative:
+                return solve_non_negative(sampled_gram(state, normalise), m);
             case MomentSolver::joint:
-            case MomentSolver::joint_non_negative: return solve_joint(state, m, normalise);
+            case MomentSolver::joint_non_negative:
+                return solve_joint(state, m, normalise);
         }
         return {};
     }
@@ -153,9 +158,9 @@ class MomentEncoder final : public Encoder {
         MatrixXd mean;  ///< radiance, 1 x 3
     };
     [[nodiscard]] Blend blended(std::span<const float> state, const MatrixXd& m, double normalise) const {
-        // Unequal weights count as fewer samples: N = (sum w)^2 / sum w^2. The quadratic term lets k fall faster than the
-        // error of any sampling, 1 / N at best, so that it costs nothing where all is known; 8 leaves k = n / (N + n)
-        // nearly as it is where few samples are.
+        // Unequal weights count as fewer samples: N = (sum w)^2 / sum w^2. The quadratic term lets k fall faster than
+        // the error of any sampling, 1 / N at best, so that it costs nothing where all is known; 8 leaves k = n / (N +
+        // n) nearly as it is where few samples are.
         const auto n = static_cast<double>(basis().size());
         const double count = std::pow(static_cast<double>(state[k_weight]), 2) / state[k_squared_weight];
         const double k = n / (n + count + count * count / (8 * n));

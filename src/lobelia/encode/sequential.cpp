@@ -29,8 +29,7 @@ class SequentialEncoder : public Encoder {
         for (std::size_t k = 0; k < 3; ++k) s.b[k] = padded.data() + k * lanes;
         s.per_lobe = padded.data() + 3 * lanes;
         s.floor = padded.data() + 4 * lanes;
-        for (std::size_t k = 0; k < 4; ++k)
-            std::copy_n(state.data() + k_header + k * n, n, padded.data() + k * lanes);
+        for (std::size_t k = 0; k < 4; ++k) std::copy_n(state.data() + k_header + k * n, n, padded.data() + k * lanes);
         if (state[k_count] == 0) start(s);
         fill_floor(padded.data() + 4 * lanes);
 
@@ -57,8 +56,7 @@ class SequentialEncoder : public Encoder {
         // Pack it again.
         state[k_weight] = static_cast<float>(progress.weight);
         state[k_count] = static_cast<float>(progress.count);
-        for (std::size_t k = 0; k < 4; ++k)
-            std::copy_n(padded.data() + k * lanes, n, state.data() + k_header + k * n);
+        for (std::size_t k = 0; k < 4; ++k) std::copy_n(padded.data() + k * lanes, n, state.data() + k_header + k * n);
     }
 
     void solve(std::span<const float> state, std::span<Rgb> c) const override {
@@ -160,7 +158,7 @@ class Progressive final : public SequentialEncoder {
             s.b[1][i] = options_.seed[i].g;
             s.b[2][i] = options_.seed[i].b;
         }
-        if (options_.denominator != ProgressiveOptions::Denominator::sampled || options_.acceleration > 0) return;
+        if (options_.denominator != ProgressiveOptions::Denominator::sampled || options_.acceleration) return;
         for (std::size_t i = 0; i < basis().size(); ++i)
             s.per_lobe[i] = options_.first_mean_square.value_or(mean_square_[i]);
     }
@@ -170,13 +168,13 @@ class Progressive final : public SequentialEncoder {
     }
     float step(float weight, Progress& progress) const override {
         progress.count += 1;
-        const double ramp = options_.ramp > 0 ? -std::expm1(-progress.count / options_.ramp) : 1;
+        const double ramp = options_.ramp ? -std::expm1(-progress.count / *options_.ramp) : 1;
         const double ramped = weight * ramp;
         progress.weight += ramped;
         return progress.weight > 0 ? static_cast<float>(ramped / progress.weight) : 0;
     }
     void update(const kernels::Sequential& s, ColourView radiance, const Steps& steps) const override {
-        if (options_.acceleration > 0) return accelerated(s, radiance, steps.of);
+        if (options_.acceleration) return accelerated(s, radiance, steps.of);
         // The running mean of B_i^2 goes with the samples, except that its first entry may be given.
         float mean_steps[k_block_size] = {};
         if (options_.denominator != ProgressiveOptions::Denominator::exact)
@@ -194,8 +192,10 @@ class Progressive final : public SequentialEncoder {
             const float a = steps[j];
             for (std::size_t i = 0; i < basis().size(); ++i) {
                 s.per_lobe[i] += (w[i] * w[i] - s.per_lobe[i]) * a;
-                const float gain = static_cast<float>(options_.acceleration) * a * w[i] / (a + (1 - a) * s.per_lobe[i]);
-                const Rgb change = move(s, i, [&](float, float d) { return gain * d; }, delta);
+                const float gain =
+                    static_cast<float>(*options_.acceleration) * a * w[i] / (a + (1 - a) * s.per_lobe[i]);
+                const Rgb change = move(
+                    s, i, [&](float, float d) { return gain * d; }, delta);
                 delta = delta - change * w[i];
             }
         }

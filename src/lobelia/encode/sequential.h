@@ -20,13 +20,13 @@ struct ProgressiveOptions {
     /// With `sampled`, the running mean starts from this in place of the first sample's square, by which it would
     /// otherwise divide, however small; none: from the known mean.
     std::optional<float> first_mean_square = {};
-    /// Early samples count less, weight 1 - e^(-i / ramp); 0 turns the ramp off.
-    double ramp = 0;
+    /// Early samples count less, weight 1 - e^(-i / ramp); none: all count alike.
+    std::optional<double> ramp = {};
     /// Start from these coefficients, found from fewer samples, instead of from 0. Size 0 or basis size.
     std::vector<Rgb> seed = {};
-    /// The later variant: S_i = a + (1 - a) m_i, gain times this, each lobe seeing the correction of those before it;
-    /// 0 is the plain form. Published with 3.
-    double acceleration = 0;
+    /// The later variant: S_i = a + (1 - a) m_i (whatever `denominator` says), gain times this, each lobe seeing the
+    /// correction of those before it; none: the plain form. Published with 3.
+    std::optional<double> acceleration = {};
 };
 [[nodiscard]] std::shared_ptr<const Encoder> make_progressive(std::shared_ptr<const Basis> basis, Sign sign,
                                                               const ProgressiveOptions& options = {});
