@@ -72,27 +72,29 @@ std::optional<fs::path> create_named_beside(const fs::path& path, const Create& 
 /// name before that, so that nothing is left of it if the process is ended; else the destructor removes it.
 class StagedFile {
   public:
-    StagedFile(fs::path target, Descriptor descriptor, std::optional<fs::path> temporary)
+    /// `temporary` is the file's name until then, empty while it has none.
+    StagedFile(fs::path target, Descriptor descriptor, fs::path temporary)
         : target_(std::move(target)), descriptor_(std::move(descriptor)), temporary_(std::move(temporary)) {}
     StagedFile(StagedFile&& other) noexcept
         : target_(std::move(other.target_)),
           descriptor_(std::move(other.descriptor_)),
-          temporary_(std::exchange(other.temporary_, std::nullopt)) {}
+          temporary_(std::exchange(other.temporary_, {})) {}
     StagedFile& operator=(StagedFile&&) = delete;
     ~StagedFile() {
-        if (temporary_) ::unlink(temporary_->c_str());
+        if (!temporary_.empty()) ::unlink(temporary_.c_str());
     }
 
     [[nodiscard]] Status commit() {
-        if (!temporary_) {
+        if (temporary_.empty()) {
             const std::string self = fmt::format("/proc/self/fd/{}", descriptor_.get());
-            temporary_ = create_named_beside(target_, [&](const fs::path& name) {
+            const auto named = create_named_beside(target_, [&](const fs::path& name) {
                 return ::linkat(AT_FDCWD, self.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0;
             });
-            if (!temporary_) return failure(target_, errno);
+            if (!named) return failure(target_, errno);
+            temporary_ = *named;
         }
-        if (!descriptor_.close() || ::rename(temporary_->c_str(), target_.c_str()) != 0) return failure(target_, errno);
-        temporary_.reset();
+        if (!descriptor_.close() || ::rename(temporary_.c_str(), target_.c_str()) != 0) return failure(target_, errno);
+        temporary_.clear();
         return Done{};
     }
 
@@ -101,22 +103,21 @@ class StagedFile {
   private:
     fs::path target_;
     Descriptor descriptor_;
-    std::optional<fs::path> temporary_;
+    fs::path temporary_;
 };
 
 /// An empty staged file, unnamed if the system can do that there.
 Result<StagedFile> create_staged(const fs::path& path) {
     const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
     Descriptor unnamed(::open(folder.c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, 0666));
-    if (unnamed.is_open() && ::access("/proc/self/fd", X_OK) == 0)
-        return StagedFile(path, std::move(unnamed), std::nullopt);
+    if (unnamed.is_open() && ::access("/proc/self/fd", X_OK) == 0) return StagedFile(path, std::move(unnamed), {});
     int opened = -1;
     const auto name = create_named_beside(path, [&](const fs::path& candidate) {
         opened = ::open(candidate.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
         return opened >= 0;
     });
     if (!name) return failure(path, errno);
-    return StagedFile(path, Descriptor(opened), name);
+    return StagedFile(path, Descriptor(opened), *name);
 }
 
 Result<StagedFile> stage(const fs::path& path, std::span<const std::byte> bytes) {
