@@ -189,8 +189,8 @@ Result<HdrHeader> parse_hdr_header(std::span<const std::byte> bytes, std::string
         if (const Status status = apply_line(header, *line, lines); !status) return status.error();
     }
     if (header.foreign_primaries && header.encoding == HdrHeader::Encoding::rgbe)
-        header.warnings.push_back("PRIMARIES are not those of Rec. 709; pixels are taken as Rec. 709 unchanged");
-    if (!has_format) header.warnings.push_back("the header has no FORMAT line; pixels are taken as RGBE");
+        header.warnings.emplace_back("PRIMARIES are not those of Rec. 709; pixels are taken as Rec. 709 unchanged");
+    if (!has_format) header.warnings.emplace_back("the header has no FORMAT line; pixels are taken as RGBE");
 
     // Read the resolution line that follows it.
     const Result<std::string_view> line = lines.next();
