@@ -195,7 +195,8 @@ std::vector<std::string> warnings_about(const Imf::MultiPartInputFile& file, con
         const auto differ = [](const auto& a, const auto& b) { return !(std::hypot(a.x - b.x, a.y - b.y) < 0.002f); };
         if (differ(given.red, rec709.red) || differ(given.green, rec709.green) || differ(given.blue, rec709.blue) ||
             differ(given.white, rec709.white))
-            warnings.emplace_back("the chromaticities are not those of Rec. 709; pixels are taken as Rec. 709 unchanged");
+            warnings.emplace_back(
+                "the chromaticities are not those of Rec. 709; pixels are taken as Rec. 709 unchanged");
     }
     return warnings;
 }
