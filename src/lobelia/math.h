@@ -8,6 +8,16 @@ namespace lobelia {
 
 inline constexpr double k_pi = 3.14159265358979323846;
 
+/// A point of a plane: texture coordinates, texels.
+struct Vec2 {
+    float x = 0, y = 0;
+    friend bool operator==(const Vec2&, const Vec2&) = default;
+};
+
+[[nodiscard]] constexpr Vec2 operator+(Vec2 a, Vec2 b) { return {a.x + b.x, a.y + b.y}; }
+[[nodiscard]] constexpr Vec2 operator-(Vec2 a, Vec2 b) { return {a.x - b.x, a.y - b.y}; }
+[[nodiscard]] constexpr Vec2 operator*(Vec2 a, float s) { return {a.x * s, a.y * s}; }
+
 /// A point or, where said so, a unit direction; right-handed axes.
 struct Vec3 {
     float x = 0, y = 0, z = 0;

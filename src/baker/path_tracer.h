@@ -1,0 +1,98 @@
+// Light transport: what radiance arrives along a ray, and what arrives at a point straight from the light sources.
+// Kajiya 1986 (the equation); Veach 1997 (multiple importance sampling); Walter et al. 2007, Heitz 2018 (GGX).
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "scene/world.h"
+
+namespace lobelia {
+
+enum class Switch { off, on };
+
+struct PathOptions {
+    int bounces = 8;                        ///< surfaces that light may meet between its source and the ray's origin
+    std::uint32_t seed = 1;                 ///< of every sequence
+    Switch next_event = Switch::on;         ///< aim at light sources; off: find them by chance (those with a size only)
+    Switch environment_table = Switch::on;  ///< aim at the environment by its brightness; off: uniformly
+    Switch roulette = Switch::on;           ///< end weak paths by chance
+    Switch sun_size = Switch::on;  ///< off: directional lights are parallel beams whatever their angular radius
+};
+
+/// Where a path begins, and which it is: `key` names the receiver (texel, probe or pixel), `sample` the point of its
+/// Owen-scrambled Sobol sequences (Burley 2020). The same key, sample and seed give the same path.
+struct PathStart {
+    Vec3 origin;
+    Vec3 direction;  ///< unit, the way one looks
+    std::uint32_t key = 0;
+    std::uint32_t sample = 0;
+};
+
+/// What arrives along a ray.
+struct Incident {
+    Rgb scattered;           ///< radiance from there that has met a surface at least once [W/(m^2 sr)]
+    Rgb emitted;             ///< radiance of the source that the ray meets first, environment included
+    float source_pdf = 0;    ///< density [1/sr] with which `direct` would have chosen this direction; 0: never
+    float distance = 0;      ///< to the first opaque surface [m]; infinite where there is none
+    bool back_face = false;  ///< the first surface shows its back, and it is a one-sided material: a leak
+};
+
+/// One light source as it reaches a point: a direction, and irradiance across it.
+struct DirectLight {
+    Vec3 direction;  ///< towards the source, unit
+    Rgb irradiance;  ///< L / pdf, or that of a light without size, on a surface that faces it [W/m^2]; 0: hidden, none
+    float pdf = 0;   ///< of the direction [1/sr]; 0 where only `direct` can find this light (it has no size)
+};
+
+/// Immutable; shared between threads, each with a scratch of its own.
+class PathTracer {
+  public:
+    class Scratch;
+    /// Builds the acceleration structure and the tables of light sources.
+    PathTracer(const Scene& scene, const World& world, const PathOptions& options = {});
+    ~PathTracer();
+    PathTracer(const PathTracer&) = delete;
+    PathTracer& operator=(const PathTracer&) = delete;
+
+    [[nodiscard]] std::unique_ptr<Scratch, void (*)(Scratch*)> make_scratch() const;
+
+    /// Follows each path; `out` has one entry for each. Any number at a time; a few hundred fill the machine.
+    void trace(std::span<const PathStart> starts, std::span<Incident> out, Scratch& scratch) const;
+
+    /// One light source for each start (its direction is ignored), chosen in proportion to power and, roughly,
+    /// distance; lights below the plane through the origin with `normal` are not chosen where normals are given (one
+    /// each, or none).
+    void direct(std::span<const PathStart> starts, std::span<const Vec3> normals, std::span<DirectLight> out,
+                Scratch& scratch) const;
+
+    /// Closest hits without shading, for whoever asks about the geometry.
+    struct Hit {
+        float distance = 0;  ///< infinite: none
+        std::uint32_t triangle = 0;
+        float u = 0, v = 0;  ///< barycentric weights of the triangle's vertices 1 and 2
+        bool back_face = false;
+    };
+    struct Ray {
+        Vec3 origin;
+        Vec3 direction;      ///< unit
+        float farthest = 0;  ///< no hit beyond; infinite: anywhere
+    };
+    void closest(std::span<const Ray> rays, std::span<Hit> out) const;
+
+    /// Whether there is any light at all: a source, or an environment that is not black.
+    [[nodiscard]] bool has_light() const;
+    /// Rays traced so far with this scratch: closest hits and shadow rays.
+    [[nodiscard]] static std::uint64_t rays(const Scratch& scratch);
+    [[nodiscard]] const World& world() const;
+    [[nodiscard]] const Scene& scene() const;
+    /// By how much to lift a ray's origin off a surface at `position` so that it does not meet it again [m].
+    [[nodiscard]] float lift(Vec3 position) const;
+
+  private:
+    struct Implementation;
+    std::unique_ptr<const Implementation> implementation_;
+};
+
+}  // namespace lobelia

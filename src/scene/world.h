@@ -1,0 +1,33 @@
+// A scene as the path tracer and the atlas see it: every object's triangles in world space, in one list.
+#pragma once
+
+#include "scene/scene.h"
+
+namespace lobelia {
+
+/// Vertex arrays are parallel; triangle arrays are parallel. Objects keep the scene's order, their triangles lie
+/// together.
+struct World {
+    std::vector<Vec3> positions;
+    std::vector<Vec3> normals;  ///< unit, smooth; of the triangle where the mesh has none
+    std::array<std::vector<Vec2>, 2> uv;
+    std::vector<Vec2> lightmap_uv;
+    std::vector<std::array<float, 4>> colors;  ///< empty where no mesh has any
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+    std::vector<std::uint32_t> material;        ///< of each triangle
+    std::vector<std::uint32_t> object;          ///< of each triangle
+    std::vector<std::uint32_t> first_triangle;  ///< of each object, and the number of all triangles at the end
+    std::vector<std::uint8_t> has_lightmap_uv;  ///< of each object
+    Vec3 lowest, highest;                       ///< corners of the box around everything; equal where there is nothing
+
+    /// Unit normal of triangle t by its winding, (0, 0, 0) where it has no area.
+    [[nodiscard]] Vec3 face_normal(std::size_t t) const;
+    /// Half the length of the box's diagonal [m].
+    [[nodiscard]] float radius() const { return 0.5f * length(highest - lowest); }
+};
+
+/// Objects that mirror (a transform of negative determinant) keep their fronts in front. Flat meshes get vertices of
+/// their own for each triangle.
+[[nodiscard]] World make_world(const Scene& scene);
+
+}  // namespace lobelia
