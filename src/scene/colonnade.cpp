@@ -258,8 +258,8 @@ void add_column(SceneBuilder& builder, const Materials& m, float x, int number) 
 struct Curtain {
     const char* name;
     int bay;
-    float left, right;  ///< from the bay's centre [m]
-    float folds, phase;
+    float left, right;   ///< from the bay's centre [m]
+    float folds, phase;  ///< how many; of the first [radians]
     std::uint32_t material;
 };
 
@@ -269,7 +269,7 @@ void add_curtain(SceneBuilder& builder, const Curtain& curtain) {
     const float width = curtain.right - curtain.left;
     const auto at = [&](float u, float v) {
         // Folds deepen downwards, lean with the height, and the whole swings a little inwards.
-        const float depth = 0.035f + 0.065f * (1 - v);
+        const float depth = 0.02f + 0.04f * (1 - v);
         const float wave =
             std::sin(2 * std::numbers::pi_v<float> * (curtain.folds * u + 0.12f * std::sin(3 * v)) + curtain.phase);
         const float swing = 0.10f * std::sin(std::numbers::pi_v<float> * (1 - v) * 0.8f);
@@ -277,7 +277,7 @@ void add_curtain(SceneBuilder& builder, const Curtain& curtain) {
                     k_hem + v * (k_rod - k_hem), depth * wave - swing};
     };
     PatchOptions options;
-    options.columns = 32;
+    options.columns = 10 * static_cast<std::size_t>(curtain.folds);
     options.rows = 8;
     options.size = {1.15f * width, k_rod - k_hem};
     options.material = curtain.material;
@@ -300,7 +300,7 @@ void add_rods(SceneBuilder& builder, const Materials& m) {
         builder.patch(options, [&](float u, float v) {
             const double angle = u == 1 ? 0 : 2 * k_pi * static_cast<double>(u);
             const Vec3 out{0, static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle))};
-            return SurfacePoint{Vec3{left + k_length * (1 - v), k_spring - 0.2f, 0} + out * k_radius, out, {u, v}};
+            return SurfacePoint{Vec3{left + k_length * v, k_spring - 0.2f, 0} + out * k_radius, out, {u, v}};
         });
     }
 }
@@ -379,9 +379,9 @@ Scene colonnade_scene(const ColonnadeOptions& options) {
     add_roof(builder, m);
     for (int i = 0; i <= k_bays; ++i) add_column(builder, m, -k_half_length + k_bay * static_cast<float>(i), i + 1);
     add_rods(builder, m);
-    add_curtain(builder, {"red curtain", 0, -1.0f, 0.55f, 6, 0.3f, m.red});
-    add_curtain(builder, {"blue curtain", 1, -1.0f, 0.1f, 5, 1.1f, m.blue});
-    add_curtain(builder, {"ochre curtain", 3, -0.2f, 1.0f, 5, 2.3f, m.ochre});
+    add_curtain(builder, {"red curtain", 0, -1.0f, 0.55f, 5, 0.3f, m.red});
+    add_curtain(builder, {"blue curtain", 1, -1.0f, 0.1f, 4, 1.1f, m.blue});
+    add_curtain(builder, {"ochre curtain", 3, -0.2f, 1.0f, 4, 2.3f, m.ochre});
     for (int i = 0; i < 4; ++i) add_pot(builder, m, {-4.5f + 3 * static_cast<float>(i), 0, 1.75f}, i + 1);
     for (int i = 0; i < 5; ++i)
         add_cypress(builder, m, {-9 + 4.2f * static_cast<float>(i), 0, 8.5f + 0.6f * static_cast<float>(i % 2)},
