@@ -183,7 +183,7 @@ void add_arcade(SceneBuilder& builder, const Materials& m) {
         });
     }
 
-    // The arches from below, right to left so that their fronts look down.
+    // The arches from below.
     PatchOptions soffit = surface(m.stone);
     soffit.columns = k_arch_segments;
     soffit.size = {static_cast<float>(k_pi) * k_arch_radius, 2 * k_half_wall};
@@ -192,7 +192,7 @@ void add_arcade(SceneBuilder& builder, const Materials& m) {
         builder.patch(soffit, [&](float u, float v) {
             const double angle = k_pi * static_cast<double>(u);
             const auto c = static_cast<float>(std::cos(angle)), s = static_cast<float>(std::sin(angle));
-            return SurfacePoint{{centre - k_arch_radius * c, k_spring + k_arch_radius * s, k_half_wall * (1 - 2 * v)},
+            return SurfacePoint{{centre - k_arch_radius * c, k_spring + k_arch_radius * s, k_half_wall * (2 * v - 1)},
                                 {c, -s, 0},
                                 {u * soffit.size.x, v * soffit.size.y}};
         });
