@@ -12,9 +12,9 @@
 namespace lobelia {
 
 struct AtlasOptions {
-    std::size_t width = 512, height = 512;   ///< of a page [texels]
-    std::optional<double> texels_per_metre;  ///< sizes objects by area instead of keeping their common UV square
-    std::size_t padding = 2;                 ///< texels between objects that are packed
+    std::size_t width = 512, height = 512;        ///< of a page [texels]
+    std::optional<double> texels_per_metre = {};  ///< sizes objects by area instead of keeping their common UV square
+    std::size_t padding = 2;                      ///< texels between objects that are packed
     /// shared: all objects lie in one UV square together, without overlaps, as an unwrapper of whole scenes leaves
     /// them. packed: each object has the UV square for itself; what it uses of it is packed into pages, at
     /// texels_per_metre or, where that is not asked for, as large as one page can hold them. automatic: shared if
