@@ -71,6 +71,7 @@ struct Bake::Implementation {
 
     /// What one run has besides.
     struct Run {
+        Run(const std::atomic<bool>& stop_flag, const BakeProgressSink& to) : stop(stop_flag), sink(to) {}
         const std::atomic<bool>& stop;
         const BakeProgressSink& sink;
         Clock::time_point start = Clock::now();
@@ -284,7 +285,7 @@ Status Bake::run(Start start, const std::atomic<bool>& stop, const BakeProgressS
     self.totals = {};
     self.statistics.texels = self.map.texels.size();
     self.pages.assign(self.atlas.pages(), Page(self.atlas.width(), self.atlas.height(), layout().channels()));
-    Implementation::Run run{stop, progress};
+    Implementation::Run run(stop, progress);
     run.tiles_all = std::uint64_t{self.plan.passes()} * self.plan.tiles.size();
 
     Status status = Done{};
@@ -309,7 +310,6 @@ const PathTracer& Bake::tracer() const { return *implementation_->tracer; }
 const Codec* Bake::codec() const { return implementation_->codec ? &*implementation_->codec : nullptr; }
 PageLayout Bake::layout() const { return {codec() == nullptr ? 0 : codec()->basis().size()}; }
 bool Bake::in_tangent_frame() const { return implementation_->in_tangent_frame(); }
-std::size_t Bake::state_bytes_per_texel() const { return implementation_->layout->bytes(); }
 std::vector<Page>& Bake::pages() { return implementation_->pages; }
 const BakeStatistics& Bake::statistics() const { return implementation_->statistics; }
 
