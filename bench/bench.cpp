@@ -68,9 +68,12 @@ void encode(benchmark::State& state, const std::shared_ptr<const Encoder>& encod
     count_items(state, count);
 }
 
-void evaluate_irradiance(benchmark::State& state, const Basis& basis, const Evaluator& evaluator) {
-    const std::vector<Rgb> c(basis.size(), Rgb{1, 0.5f, 0.25f});
-    const Directions normals = uniform_directions(basis.domain(), Sequence::sobol, k_normals, 1);
+void evaluate_irradiance(benchmark::State& state, const std::shared_ptr<const Basis>& basis,
+                         const Evaluator& evaluator) {
+    Accumulator accumulator(make_encoder(encoder_names(*basis).back(), basis).value());
+    accumulator.add(samples_for(basis->domain(), 1024));
+    const std::vector<Rgb> c = accumulator.solve();
+    const Directions normals = uniform_directions(basis->domain(), Sequence::sobol, k_normals, 1);
     Colours out(k_normals);
     for (auto _ : state) {
         irradiance(evaluator, c, normals, out);
@@ -105,8 +108,9 @@ std::string named(const std::string& stage, const std::string& codec, std::size_
 
 void register_basis(const std::shared_ptr<const Basis>& basis) {
     const std::string name = basis->name();
-    benchmark::RegisterBenchmark(named("weights", name, k_normals).c_str(),
-                                 [basis](benchmark::State& s) { values(s, *basis, basis->domain()); });
+    if (basis->linear())
+        benchmark::RegisterBenchmark(named("weights", name, k_normals).c_str(),
+                                     [basis](benchmark::State& s) { values(s, *basis->linear(), basis->domain()); });
     for (const auto& encoder_name : encoder_names(*basis))
         benchmark::RegisterBenchmark(named("encode", name + "/" + encoder_name, k_samples).c_str(),
                                      [encoder = make_encoder(encoder_name, basis).value()](benchmark::State& s) {
@@ -115,7 +119,7 @@ void register_basis(const std::shared_ptr<const Basis>& basis) {
     for (const auto& evaluator_name : basis->evaluator_names())
         benchmark::RegisterBenchmark(named("irradiance", name + "/" + evaluator_name, k_normals).c_str(),
                                      [basis, evaluator = basis->evaluator(evaluator_name)](benchmark::State& s) {
-                                         evaluate_irradiance(s, *basis, *evaluator);
+                                         evaluate_irradiance(s, basis, *evaluator);
                                      });
 }
 

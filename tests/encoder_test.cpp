@@ -13,10 +13,10 @@
 namespace lobelia {
 namespace {
 
-using BasisPtr = std::shared_ptr<const Basis>;
+using BasisPtr = std::shared_ptr<const LinearBasis>;
 using EncoderPtr = std::shared_ptr<const Encoder>;
 
-BasisPtr basis_of(const char* name) { return make_basis(name).value(); }
+BasisPtr basis_of(const char* name) { return as_linear(make_basis(name).value()); }
 
 std::vector<Rgb> encode(const EncoderPtr& encoder, SampleView samples) {
     Accumulator accumulator(encoder);
@@ -254,7 +254,7 @@ TEST(NonNegativeLeastSquares, IsLeastSquaresWhereThatIsNonNegative) {
 // ---- The joint norm ----
 
 /// Root mean square error of irradiance against the exact sum over samples, at 300 normals.
-double irradiance_error(const Basis& basis, const std::vector<Rgb>& c, SampleView samples) {
+double irradiance_error(const LinearBasis& basis, const std::vector<Rgb>& c, SampleView samples) {
     const Directions normals = test::random_directions(Domain::sphere, 300, 9);
     Colours found(300), expected(300);
     irradiance(*basis.evaluator(basis.evaluator_names().back()), c, normals, found);

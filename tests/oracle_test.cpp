@@ -24,7 +24,7 @@ struct Step {
 };
 using Update = std::function<void(MatrixXd& b, const VectorXd& w, const Eigen::RowVector3d& v, const Step& step)>;
 
-MatrixXd run_plainly(const Basis& basis, const Samples& samples, const Update& update) {
+MatrixXd run_plainly(const LinearBasis& basis, const Samples& samples, const Update& update) {
     const auto n = static_cast<Eigen::Index>(basis.size());
     MatrixXd b = MatrixXd::Zero(n, 3);
     std::vector<float> rows(basis.size() * k_block_size);
@@ -48,7 +48,7 @@ void expect_near(const std::shared_ptr<const Encoder>& encoder, const Samples& s
     Accumulator accumulator(encoder);
     accumulator.add(samples);
     const auto c = accumulator.solve();
-    const MatrixXd b = run_plainly(encoder->basis(), samples, update);
+    const MatrixXd b = run_plainly(*encoder->basis().linear(), samples, update);
     const double scale = b.cwiseAbs().maxCoeff();
     ASSERT_GT(scale, 0);
     for (Eigen::Index i = 0; i < b.rows(); ++i) {
@@ -71,7 +71,7 @@ Samples unequal_samples(Domain domain) {
     return samples;
 }
 
-VectorXd mean_squares(const Basis& basis) {
+VectorXd mean_squares(const LinearBasis& basis) {
     const auto n = static_cast<Eigen::Index>(basis.size());
     const Matrix gram = basis.gram();
     return Eigen::Map<const MatrixXd>(gram.data(), n, n).diagonal() / solid_angle(basis.domain());
@@ -127,7 +127,7 @@ Update progressive(const VectorXd& exact, const ProgressiveOptions& options, dou
 constexpr double k_no_limit = -1e30;
 
 TEST(RunningAverage, FollowsItsFormula) {
-    const auto basis = make_basis("sg12").value();
+    const auto basis = as_linear(make_basis("sg12").value());
     const Samples samples = unequal_samples(basis->domain());
     expect_near(make_running_average(basis, Sign::any), samples, running_average(k_no_limit));
     expect_near(make_running_average(basis, Sign::non_negative), samples, running_average(0));
@@ -145,7 +145,7 @@ TEST(Progressive, EveryChoiceFollowsItsFormula) {
         {.acceleration = 3},
     };
     for (const char* name : {"sg12", "sg12h"}) {
-        const auto basis = make_basis(name).value();
+        const auto basis = as_linear(make_basis(name).value());
         const Samples samples = unequal_samples(basis->domain());
         for (std::size_t k = 0; k < choices.size(); ++k)
             for (Sign sign : {Sign::any, Sign::non_negative}) {
@@ -158,7 +158,7 @@ TEST(Progressive, EveryChoiceFollowsItsFormula) {
 
 TEST(MatrixGain, FollowsItsFormula) {
     for (const char* name : {"sg12", "sg12h", "sh2"}) {
-        const auto basis = make_basis(name).value();
+        const auto basis = as_linear(make_basis(name).value());
         const auto n = static_cast<Eigen::Index>(basis->size());
         const Matrix gram = basis->gram();
         const MatrixXd inverse =

@@ -87,7 +87,7 @@ inline double distance(const std::vector<Rgb>& a, const std::vector<Rgb>& b) {
     return norm(d);
 }
 /// |a - b|_G / |b|_G: the error of radiance over the domain, G the exact Gram matrix of the basis.
-inline double excess(const Basis& basis, const std::vector<Rgb>& a, const std::vector<Rgb>& b) {
+inline double excess(const LinearBasis& basis, const std::vector<Rgb>& a, const std::vector<Rgb>& b) {
     const Matrix gram = basis.gram();
     const auto squared = [&](const std::vector<Rgb>& v) {
         double sum = 0;

@@ -1,96 +1,55 @@
-// What a basis and an evaluator are: functions of a direction, read in blocks, and what encoders ask of them.
+// What a basis is: the meaning of coefficients. Linear ones are a sum of functions; fitted ones are read otherwise, and
+// are found from a linear one.
 #pragma once
 
-#include <memory>
-#include <span>
-#include <string>
-#include <vector>
-
-#include "lobelia/sample.h"
+#include "lobelia/evaluator.h"
 
 namespace lobelia {
-
-/// Directions are handled in blocks of this many: enough to hide the virtual call, small enough that the rows of a
-/// dozen functions stay in the first-level cache.
-inline constexpr std::size_t k_block_size = 256;
-
-/// `size()` real functions of a direction.
-class FunctionSet {
-  public:
-    virtual ~FunctionSet() = default;
-    [[nodiscard]] virtual std::size_t size() const = 0;
-    /// rows[i * k_block_size + j] = f_i(direction j), for block.size <= k_block_size directions. `rows` has
-    /// size() * k_block_size floats; within a row, entries past block.size up to whole lanes may be overwritten.
-    virtual void values(DirectionView block, float* rows) const = 0;
-};
-
-/// out_j = sum_i c_i f_i(direction j): radiance for a basis, irradiance for a linear evaluator.
-void evaluate(const FunctionSet& functions, std::span<const Rgb> c, DirectionView directions, MutableColourView out);
-
-/// The same for many coefficient vectors at once; each function is computed only once per direction.
-void evaluate_many(const FunctionSet& functions, std::span<const std::span<const Rgb>> c, DirectionView directions,
-                   std::span<const MutableColourView> out);
-
-/// The known accuracy of an evaluator, as its documentation and its tests state it.
-struct Accuracy {
-    std::string range;  ///< where it is valid, such as "sharpness 1 to 1000"
-    std::string error;  ///< the largest error there
-};
-
-/// What becomes of a radiance or irradiance below 0, which no light has but a fit may: it stays, or is read as 0.
-enum class Negative { kept, clamped };
-
-/// How coefficients are read as irradiance E(n) [W/m^2] at a unit normal n.
-class Evaluator {
-  public:
-    virtual ~Evaluator() = default;
-    [[nodiscard]] virtual std::string name() const = 0;
-    [[nodiscard]] virtual Accuracy accuracy() const = 0;
-    /// E as the coefficients give it; what is below 0 is still there.
-    virtual void signed_irradiance(std::span<const Rgb> c, DirectionView normals, MutableColourView out) const = 0;
-    /// What this reading does with negative values of L and E.
-    [[nodiscard]] virtual Negative negative() const { return Negative::kept; }
-    /// The weights e_i(n) with E = sum c_i e_i where the evaluator is linear in the coefficients; else null.
-    [[nodiscard]] virtual const FunctionSet* weights() const { return nullptr; }
-};
-
-/// An evaluator that is a vector of weights at a normal.
-class LinearEvaluator : public Evaluator, public FunctionSet {
-  public:
-    void signed_irradiance(std::span<const Rgb> c, DirectionView normals, MutableColourView out) const final {
-        evaluate(*this, c, normals, out);
-    }
-    [[nodiscard]] const FunctionSet* weights() const final { return this; }
-};
-
-/// Irradiance as the evaluator means it: signed, then clamped where it clamps.
-void irradiance(const Evaluator& evaluator, std::span<const Rgb> c, DirectionView normals, MutableColourView out);
-
-/// Signed irradiance of many coefficient vectors; a linear evaluator's weights are computed only once per normal.
-void signed_irradiance_many(const Evaluator& evaluator, std::span<const std::span<const Rgb>> c, DirectionView normals,
-                            std::span<const MutableColourView> out);
-
-/// Every channel below 0 becomes 0.
-void clamp_negative(MutableColourView colours);
 
 /// A symmetric K x K matrix, row by row, and so on: small dense tables in double precision.
 using Matrix = std::vector<double>;
 
-/// A linear basis over the sphere or the hemisphere: radiance L(w) = sum_i c_i B_i(w), one RGB coefficient each.
-class Basis : public FunctionSet {
+class LinearBasis;
+class FittedBasis;
+
+/// light: a coefficient that grows in proportion to the radiance. shape: a direction, a sharpness, which does not.
+enum class Meaning { light, shape };
+
+/// What a reader should know of a basis, for docs/bases.md.
+struct BasisNotes {
+    std::string family;   ///< bases that differ in a number only share a section of this title
+    std::string formula;  ///< how coefficients are read as radiance
+    std::string good_at;
+    std::string bad_at;
+};
+
+/// What a list of colours means as radiance over the sphere or the hemisphere.
+class Basis {
   public:
+    virtual ~Basis() = default;
     [[nodiscard]] virtual std::string name() const = 0;
     [[nodiscard]] virtual std::string description() const = 0;
+    [[nodiscard]] virtual BasisNotes notes() const = 0;
     [[nodiscard]] virtual Domain domain() const = 0;
-    /// Whether every B_i >= 0, so that coefficients >= 0 give a radiance >= 0 everywhere.
-    [[nodiscard]] virtual bool is_non_negative() const = 0;
-    /// G_ij = integral of B_i B_j over the domain [sr].
-    [[nodiscard]] virtual Matrix gram() const = 0;
-    /// Integral of each B_i over the domain [sr].
-    [[nodiscard]] virtual std::vector<double> integrals() const = 0;
-    /// Names of the ways to read irradiance from this basis, and one of them (null if unknown).
+    /// Number of coefficients, one colour (three floats) each.
+    [[nodiscard]] virtual std::size_t size() const = 0;
+    /// What each coefficient is.
+    [[nodiscard]] virtual std::vector<Meaning> meanings() const { return std::vector(size(), Meaning::light); }
+    /// L(w) at each direction as the coefficients give it; what is below 0 is still there.
+    virtual void radiance(std::span<const Rgb> c, DirectionView directions, MutableColourView out) const = 0;
+    /// This basis as what it is, a sum of functions or fitted from one: one of the two is not null.
+    [[nodiscard]] virtual const LinearBasis* linear() const { return nullptr; }
+    [[nodiscard]] virtual const FittedBasis* fitted() const { return nullptr; }
+
+    /// Names of the ways to read irradiance from this basis, the most accurate one last, and one of them (null if
+    /// unknown).
     [[nodiscard]] virtual std::vector<std::string> evaluator_names() const = 0;
     [[nodiscard]] virtual std::shared_ptr<const Evaluator> evaluator(std::string_view name) const = 0;
+    /// Names of the encoders with which the basis is listed; none: with all that suit it. Others work, too.
+    [[nodiscard]] virtual std::vector<std::string> listed_encoders() const { return {}; }
+    /// In a constant environment of radiance 1, fitted exactly: how far E / pi by the most accurate evaluator is from 1
+    /// at most, at normals that see the domain only.
+    [[nodiscard]] virtual double furnace_bias() const { return 0.005; }
 
     /// The same radiance seen in a rotated frame, L'(R w) = L(w): a basis and coefficients that give it exactly.
     struct Rotated {
@@ -100,5 +59,39 @@ class Basis : public FunctionSet {
     /// For the hemisphere, `r` turns about z.
     [[nodiscard]] virtual Rotated rotated(const Rotation& r, std::span<const Rgb> c) const = 0;
 };
+
+/// Radiance L(w) = sum_i c_i B_i(w).
+class LinearBasis : public Basis, public FunctionSet {
+  public:
+    [[nodiscard]] std::size_t size() const override = 0;
+    void radiance(std::span<const Rgb> c, DirectionView directions, MutableColourView out) const final {
+        evaluate(*this, c, directions, out);
+    }
+    [[nodiscard]] const LinearBasis* linear() const final { return this; }
+    /// Whether every B_i >= 0, so that coefficients >= 0 give a radiance >= 0 everywhere.
+    [[nodiscard]] virtual bool is_non_negative() const = 0;
+    /// G_ij = integral of B_i B_j over the domain [sr].
+    [[nodiscard]] virtual Matrix gram() const = 0;
+    /// Integral of each B_i over the domain [sr].
+    [[nodiscard]] virtual std::vector<double> integrals() const = 0;
+};
+
+/// A basis whose numbers are found from the coefficients of a linear one, which is what encoders accumulate: ambient
+/// and highlight, lobes with axes of their own. Reading them need not be linear.
+class FittedBasis : public Basis {
+  public:
+    [[nodiscard]] const FittedBasis* fitted() const final { return this; }
+    /// The linear basis, over the same domain, fine enough for fit() to find all that it needs in it.
+    [[nodiscard]] virtual std::shared_ptr<const LinearBasis> accumulated() const = 0;
+    /// Coefficients `c` of this basis from coefficients of the accumulated one. No samples, all 0, gives all 0.
+    virtual void fit(std::span<const Rgb> accumulated, std::span<Rgb> c) const = 0;
+    /// Fits cost time, and encoders differ little after one.
+    [[nodiscard]] std::vector<std::string> listed_encoders() const override { return {"moments", "least-squares"}; }
+};
+
+/// The same object, or null where it is not linear.
+[[nodiscard]] inline std::shared_ptr<const LinearBasis> as_linear(const std::shared_ptr<const Basis>& basis) {
+    return {basis, basis->linear()};
+}
 
 }  // namespace lobelia

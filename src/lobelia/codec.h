@@ -50,7 +50,8 @@ struct NamePattern {
 [[nodiscard]] std::vector<std::string> encoder_names();
 /// Further encoders known by name: published variants that are only of interest in a study.
 [[nodiscard]] std::vector<std::string> encoder_variant_names();
-/// Encoders that make sense for a basis: running averages and non-negative ones only where its functions are >= 0.
+/// Encoders that a basis is listed with: of those that it names (all, where it names none) the ones that suit it,
+/// running averages and non-negative ones only where its functions are >= 0.
 [[nodiscard]] std::vector<std::string> encoder_names(const Basis& basis);
 /// The listed encoder whose solution this one strives for: least squares, its non-negative form, or the joint norm's.
 [[nodiscard]] std::string encoder_limit(std::string_view encoder);

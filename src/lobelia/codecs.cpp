@@ -14,6 +14,7 @@ namespace lobelia {
 namespace {
 
 using BasisPtr = std::shared_ptr<const Basis>;
+using LinearPtr = std::shared_ptr<const LinearBasis>;
 using EncoderPtr = std::shared_ptr<const Encoder>;
 
 /// The listed bases. A family (below) makes each from its name, and may know more names than are listed.
@@ -40,28 +41,28 @@ struct EncoderEntry {
     const char* name;
     Needs needs;
     const char* limit;  ///< the encoder whose solution this one strives for
-    EncoderPtr (*make)(BasisPtr);
+    EncoderPtr (*make)(LinearPtr);
     Listed listed = Listed::yes;  ///< variants for study are known by name but not part of the product
 };
 
 template <MomentSolver solver>
-EncoderPtr moments(BasisPtr basis) {
+EncoderPtr moments(LinearPtr basis) {
     return make_moment_encoder(std::move(basis), solver);
 }
 template <Sign sign>
-EncoderPtr progressive(BasisPtr basis) {
+EncoderPtr progressive(LinearPtr basis) {
     return make_progressive(std::move(basis), sign);
 }
 template <ProgressiveOptions::Denominator denominator>
-EncoderPtr progressive_with(BasisPtr basis) {
+EncoderPtr progressive_with(LinearPtr basis) {
     return make_progressive(std::move(basis), Sign::any, {.denominator = denominator});
 }
-EncoderPtr progressive_ramped(BasisPtr basis) { return make_progressive(std::move(basis), Sign::any, {.ramp = 64}); }
-EncoderPtr progressive_accelerated(BasisPtr basis) {
+EncoderPtr progressive_ramped(LinearPtr basis) { return make_progressive(std::move(basis), Sign::any, {.ramp = 64}); }
+EncoderPtr progressive_accelerated(LinearPtr basis) {
     return make_progressive(std::move(basis), Sign::any, {.acceleration = 3});
 }
 template <Sign sign>
-EncoderPtr running_average(BasisPtr basis) {
+EncoderPtr running_average(LinearPtr basis) {
     return make_running_average(std::move(basis), sign);
 }
 
@@ -86,8 +87,11 @@ constexpr std::array k_encoders = {
     EncoderEntry{"progressive-accelerated", Needs::any_basis, "least-squares", progressive_accelerated, Listed::no},
 };
 
+bool suits(const EncoderEntry& entry, const LinearBasis& accumulated) {
+    return entry.needs == Needs::any_basis || accumulated.is_non_negative();
+}
 bool suits(const EncoderEntry& entry, const Basis& basis) {
-    return entry.needs == Needs::any_basis || basis.is_non_negative();
+    return suits(entry, basis.linear() ? *basis.linear() : *basis.fitted()->accumulated());
 }
 
 std::vector<std::string> names_where(const auto& wanted) {
@@ -128,7 +132,11 @@ std::vector<std::string> encoder_variant_names() {
 }
 
 std::vector<std::string> encoder_names(const Basis& basis) {
-    return names_where([&](const EncoderEntry& entry) { return entry.listed == Listed::yes && suits(entry, basis); });
+    const auto listed = basis.listed_encoders();
+    return names_where([&](const EncoderEntry& entry) {
+        const bool wanted = listed.empty() || std::find(listed.begin(), listed.end(), entry.name) != listed.end();
+        return entry.listed == Listed::yes && wanted && suits(entry, basis);
+    });
 }
 
 std::vector<NamePattern> basis_name_patterns() { return {k_patterns.begin(), k_patterns.end()}; }
@@ -165,7 +173,9 @@ Result<EncoderPtr> make_encoder(std::string_view name, BasisPtr basis) {
         if (!suits(entry, *basis))
             return Error{"encoder " + quoted(name) + " needs a basis of non-negative functions, which " +
                          basis->name() + " is not"};
-        return entry.make(std::move(basis));
+        if (basis->linear()) return entry.make(as_linear(basis));
+        const std::shared_ptr<const FittedBasis> fitted(basis, basis->fitted());
+        return make_fitted_encoder(fitted, entry.make(fitted->accumulated()));
     }
     return Error{"unknown encoder " + quoted(name) + nearest_names(name, encoder_names())};
 }
@@ -227,7 +237,7 @@ std::vector<Rgb> Codec::encode(SampleView samples) const {
 }
 
 void Codec::radiance(std::span<const Rgb> c, DirectionView directions, MutableColourView out) const {
-    evaluate(basis(), c, directions, out);
+    basis().radiance(c, directions, out);
     if (evaluator_->negative() == Negative::clamped) clamp_negative(out);
 }
 

@@ -37,6 +37,7 @@
 #include "lobelia/sky.h"
 
 // Bases and their evaluators, and the mathematics under them.
+#include "lobelia/evaluator.h"
 #include "lobelia/basis.h"
 #include "lobelia/quadrature.h"
 #include "lobelia/harmonics.h"

@@ -139,14 +139,14 @@ class Run {
 
             const SampleView judged = stage.judged;
             Colours radiance(judged.size);
-            evaluate(*e.run->basis, e.c, judged.directions(), radiance);
+            e.run->basis->radiance(e.c, judged.directions(), radiance);
             const std::span weights{judged.solid_angles(), judged.size};
             e.radiance[Negative::kept] = errors(radiance, judged.radiance(), weights);
             clamp_negative(radiance);
             e.radiance[Negative::clamped] = errors(radiance, judged.radiance(), weights);
             if (options_.pictures) {
                 e.picture = Colours(k_radiance_picture.size());
-                evaluate(*e.run->basis, e.c, k_radiance_picture.directions(e.run->basis->domain()), e.picture);
+                e.run->basis->radiance(e.c, k_radiance_picture.directions(e.run->basis->domain()), e.picture);
             }
             step(0.3 / static_cast<double>(encodings_.size()));
         });
@@ -240,7 +240,8 @@ class Run {
     [[nodiscard]] std::vector<Convergence> converge() {
         std::vector<ConvergenceTask> tasks;
         for (const BasisRun& run : runs_)
-            if (run.basis->size() <= k_most_converging_size)
+            if (run.basis->linear() && run.basis->listed_encoders().empty() &&
+                run.basis->size() <= k_most_converging_size)
                 tasks.push_back({run.basis, run.encoders, {k_sequences.begin(), k_sequences.end()}});
         return measure_convergence(environment_, tasks, {.seed = options_.seed}, [&](double done) {
             report(k_before_convergence + done * (1 - k_before_convergence));
@@ -271,7 +272,8 @@ class Run {
 
     static constexpr double k_before_convergence = 0.6;
 
-    /// Bases beyond this many coefficients are left out of the convergence plots: they take long and show the same.
+    /// Bases beyond this many coefficients are left out of the convergence plots, as are those with a few encoders
+    /// only: they take long and show the same.
     static constexpr std::size_t k_most_converging_size = 16;
 
     Image environment_;

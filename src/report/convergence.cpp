@@ -48,7 +48,7 @@ void run_job(const Image& environment, const ConvergenceTask& task, std::optiona
              const ConvergenceOptions& options, std::span<Convergence> results) {
     const Domain domain = task.basis->domain();
     const Samples texels = texel_samples(environment, domain);
-    const Matrix gram = task.basis->gram();
+    const Matrix gram = task.basis->linear()->gram();
     std::vector<std::shared_ptr<const Encoder>> encoders;
     std::vector<std::vector<Rgb>> converged;
     for (std::size_t e = 0; e < task.encoders.size(); ++e) {

@@ -7,7 +7,7 @@ namespace lobelia {
 
 /// A basis, and which encoders to follow with which sequences.
 struct ConvergenceTask {
-    std::shared_ptr<const Basis> basis;
+    std::shared_ptr<const Basis> basis;  ///< a linear one
     std::vector<std::string> encoders;
     std::vector<std::optional<Sequence>> sequences;  ///< none: that many of the environment's own texels
 };

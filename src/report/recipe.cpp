@@ -35,7 +35,7 @@ const std::vector<RecipeMethod>& methods_of(Recipe recipe) {
     return recipe == Recipe::published ? published : updated;
 }
 
-std::shared_ptr<const Encoder> encoder_of(const std::string& name, const std::shared_ptr<const Basis>& basis) {
+std::shared_ptr<const Encoder> encoder_of(const std::string& name, const std::shared_ptr<const LinearBasis>& basis) {
     // The updated post divides by the running mean of B_i^2 (not the clamped one), and feeds it at first with what it
     // prints as the known mean, 4 standing for 4 lambda in the exponent.
     const ProgressiveOptions sampled{.denominator = ProgressiveOptions::Denominator::sampled,
@@ -157,7 +157,7 @@ Comparison run_recipe(Recipe recipe, const Image& environment, const ComparisonO
                                                       judge.irradiance_over_pi};
 
     // Both shuffled methods draw on one generator, one after the other.
-    const auto basis = make_basis(k_basis).value();
+    const auto basis = as_linear(make_basis(k_basis).value());
     const auto evaluator = make_evaluator(k_evaluator, *basis).value();
     std::mt19937 generator;
     const auto& methods = methods_of(recipe);

@@ -94,6 +94,7 @@ Result<Study> study_encoders(const Image& environment, const std::vector<std::st
     for (const auto& name : bases) {
         const auto basis = make_basis(name);
         if (!basis) return basis.error();
+        if (!(*basis)->linear()) return Error{"basis \"" + name + "\" is not linear: its encoders cannot be compared"};
         const auto encoders = all_encoders(*basis);
         std::vector<std::vector<Convergence>> by_column;
         for (const auto& column : columns) {

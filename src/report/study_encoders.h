@@ -14,7 +14,7 @@ struct EncoderStudyOptions {
 };
 
 /// For each basis one table of relative excess errors, and one of absolute ones (root mean square radiance), with
-/// every listed and unlisted encoder that suits it. `bases` and `environment` as for compare().
+/// every listed and unlisted encoder that suits it. `bases` (linear ones) and `environment` as for compare().
 [[nodiscard]] Result<Study> study_encoders(const Image& environment, const std::vector<std::string>& bases,
                                            const EncoderStudyOptions& options = {}, const Progress& progress = {});
 

@@ -186,6 +186,14 @@ std::string SphericalGaussians::description() const {
     return text.str();
 }
 
+BasisNotes SphericalGaussians::notes() const {
+    return {"Spherical Gaussians",
+            "L(w) = sum of c_i exp(lambda_i (w . p_i - 1)), on fixed axes p_i with fixed sharpness lambda_i",
+            "radiance that stays positive (with a non-negative encoder); glossy reflection, since a lobe times a lobe "
+            "is a lobe; as many lobes as the budget allows",
+            "irradiance by plain least squares (the joint norm mends it); turning, as the axes are fixed"};
+}
+
 Matrix SphericalGaussians::gram() const {
     std::call_once(gram_once_, [&] {
         const std::size_t n = lobes_.size();

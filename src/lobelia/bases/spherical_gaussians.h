@@ -20,7 +20,7 @@ namespace lobelia {
 /// Lobes from a text file: a line "x y z sharpness" each (the axis is normalised), or "ambient"; # starts a comment.
 [[nodiscard]] Result<std::vector<gaussian::Lobe>> read_lobes(const std::string& path);
 
-class SphericalGaussians final : public Basis {
+class SphericalGaussians final : public LinearBasis {
   public:
     SphericalGaussians(std::string name, std::vector<gaussian::Lobe> lobes, Domain domain);
 
@@ -35,6 +35,7 @@ class SphericalGaussians final : public Basis {
     void values(DirectionView block, float* rows) const override;
     [[nodiscard]] std::string name() const override { return name_; }
     [[nodiscard]] std::string description() const override;
+    [[nodiscard]] BasisNotes notes() const override;
     [[nodiscard]] Domain domain() const override { return domain_; }
     [[nodiscard]] bool is_non_negative() const override { return true; }
     [[nodiscard]] Matrix gram() const override;

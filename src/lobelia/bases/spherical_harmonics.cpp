@@ -48,6 +48,14 @@ std::string SphericalHarmonics::description() const {
            " coefficients";
 }
 
+BasisNotes SphericalHarmonics::notes() const {
+    return {"Spherical harmonics",
+            "L(w) = sum over l and m of c_lm Y_lm(w), orthonormal and real, all signs plus, index l^2 + l + m",
+            "smooth light and its irradiance (degree 2 is off by a few per cent); turning; adding and filtering, since "
+            "they are linear and know no axis of their own",
+            "small and bright sources: they ring, radiance and irradiance turn negative opposite to the sun"};
+}
+
 Matrix SphericalHarmonics::gram() const {
     Matrix identity(size() * size());
     for (std::size_t i = 0; i < size(); ++i) identity[i * size() + i] = 1;

@@ -7,7 +7,7 @@
 
 namespace lobelia {
 
-class SphericalHarmonics final : public Basis {
+class SphericalHarmonics final : public LinearBasis {
   public:
     explicit SphericalHarmonics(std::size_t degree) : harmonics_(degree) {}
 
@@ -18,6 +18,7 @@ class SphericalHarmonics final : public Basis {
     void values(DirectionView block, float* rows) const override { harmonics_.values(block, rows); }
     [[nodiscard]] std::string name() const override;
     [[nodiscard]] std::string description() const override;
+    [[nodiscard]] BasisNotes notes() const override;
     [[nodiscard]] Domain domain() const override { return Domain::sphere; }
     [[nodiscard]] bool is_non_negative() const override { return false; }
     [[nodiscard]] Matrix gram() const override;

@@ -8,7 +8,7 @@ namespace lobelia {
 /// Whether merging the states of two halves gives what one pass over both would: sums do, learned estimates do not.
 enum class Merging { exact, approximate };
 
-/// Finds the coefficients of a linear basis from samples as they arrive. An encoder is immutable and shared; what it
+/// Finds the coefficients of a basis from samples as they arrive. An encoder is immutable and shared; what it
 /// has seen is in a state of `state_size()` floats that the caller keeps (one per texel or probe), that threads merge
 /// and that checkpoints store. A state of zeros has seen nothing.
 class Encoder {
@@ -34,6 +34,20 @@ class Encoder {
   private:
     std::shared_ptr<const Basis> basis_;
 };
+
+/// An encoder of a linear basis.
+class LinearEncoder : public Encoder {
+  public:
+    explicit LinearEncoder(const std::shared_ptr<const LinearBasis>& basis) : Encoder(basis), linear_(*basis) {}
+    [[nodiscard]] const LinearBasis& basis() const { return linear_; }
+
+  private:
+    const LinearBasis& linear_;
+};
+
+/// An encoder of a fitted basis: `accumulating`, an encoder of its accumulated basis, does all but the last step.
+[[nodiscard]] std::shared_ptr<const Encoder> make_fitted_encoder(std::shared_ptr<const FittedBasis> basis,
+                                                                 std::shared_ptr<const Encoder> accumulating);
 
 /// An encoder with a state of its own.
 class Accumulator {

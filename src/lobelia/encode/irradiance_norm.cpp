@@ -10,7 +10,7 @@ namespace lobelia {
 namespace {
 
 /// Whether the rule integrates each function's square.
-bool resolves(const Basis& basis, const Matrix& gram, const SphereRule& rule) {
+bool resolves(const LinearBasis& basis, const Matrix& gram, const SphereRule& rule) {
     const std::vector<double> squares = integrals_of_squares(basis, rule);
     for (std::size_t i = 0; i < basis.size(); ++i) {
         const double known = gram[i * basis.size() + i];
@@ -21,7 +21,7 @@ bool resolves(const Basis& basis, const Matrix& gram, const SphereRule& rule) {
 
 /// Harmonic coefficients of each basis function, with as many quadrature nodes as its own square needs. On the
 /// hemisphere too they are those of whole functions, since evaluators read them whole.
-Eigen::MatrixXd project(const Basis& basis, const harmonics::Harmonics& harmonics) {
+Eigen::MatrixXd project(const LinearBasis& basis, const harmonics::Harmonics& harmonics) {
     const Matrix gram = basis.gram();
     std::size_t heights = 32;
     while (heights < 512 && !resolves(basis, gram, product_rule(basis.domain(), heights))) heights *= 2;
@@ -30,7 +30,7 @@ Eigen::MatrixXd project(const Basis& basis, const harmonics::Harmonics& harmonic
 
 }  // namespace
 
-IrradianceNorm::IrradianceNorm(const Basis& basis) {
+IrradianceNorm::IrradianceNorm(const LinearBasis& basis) {
     const harmonics::Harmonics harmonics(k_irradiance_degree);
     squared_cosine.resize(static_cast<Eigen::Index>(harmonics.size()));
     for (std::size_t l = 0; l <= k_irradiance_degree; ++l)

@@ -17,7 +17,7 @@ struct IrradianceNorm {
     Eigen::VectorXd constant;        ///< harmonic coefficients of the constant 1 on the domain
     Eigen::VectorXd squared_cosine;  ///< A_l^2 for each harmonic
 
-    explicit IrradianceNorm(const Basis& basis);
+    explicit IrradianceNorm(const LinearBasis& basis);
 };
 
 }  // namespace lobelia

@@ -58,7 +58,7 @@ std::vector<double> non_negative_least_squares(const Matrix& gram, std::span<con
     return {b.data(), b.data() + n};
 }
 
-std::vector<Rgb> least_squares_by_qr(const Basis& basis, SampleView samples) {
+std::vector<Rgb> least_squares_by_qr(const LinearBasis& basis, SampleView samples) {
     const auto n = static_cast<Eigen::Index>(basis.size());
     Eigen::MatrixXd design(static_cast<Eigen::Index>(samples.size), n), target(design.rows(), 3);
     std::vector<float> rows(basis.size() * k_block_size);

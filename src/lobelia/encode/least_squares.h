@@ -11,6 +11,6 @@ namespace lobelia {
 
 /// Ordinary least squares by Householder QR on the full design matrix, in double precision: the oracle. Slow and
 /// memory-hungry on purpose: samples x size().
-[[nodiscard]] std::vector<Rgb> least_squares_by_qr(const Basis& basis, SampleView samples);
+[[nodiscard]] std::vector<Rgb> least_squares_by_qr(const LinearBasis& basis, SampleView samples);
 
 }  // namespace lobelia

@@ -14,11 +14,11 @@ namespace {
 
 using Eigen::MatrixXd;
 
-class MomentEncoder final : public Encoder {
+class MomentEncoder final : public LinearEncoder {
   public:
-    MomentEncoder(std::shared_ptr<const Basis> basis_of, MomentSolver solver, const MomentOptions& options)
-        : Encoder(std::move(basis_of)), solver_(solver), options_(options) {
-        const Basis& b = basis();
+    MomentEncoder(std::shared_ptr<const LinearBasis> basis_of, MomentSolver solver, const MomentOptions& options)
+        : LinearEncoder(std::move(basis_of)), solver_(solver), options_(options) {
+        const LinearBasis& b = basis();
         if (solver == MomentSolver::projection) {
             double squared = 0;
             for (double integral : b.integrals()) squared += integral * integral;
@@ -223,7 +223,7 @@ class MomentEncoder final : public Encoder {
 
 }  // namespace
 
-std::shared_ptr<const Encoder> make_moment_encoder(std::shared_ptr<const Basis> basis, MomentSolver solver,
+std::shared_ptr<const Encoder> make_moment_encoder(std::shared_ptr<const LinearBasis> basis, MomentSolver solver,
                                                    const MomentOptions& options) {
     return std::make_shared<MomentEncoder>(std::move(basis), solver, options);
 }

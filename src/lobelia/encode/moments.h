@@ -28,7 +28,7 @@ struct MomentOptions {
     double irradiance_weight = 1;  ///< w of the joint norm, 0 and up
 };
 
-[[nodiscard]] std::shared_ptr<const Encoder> make_moment_encoder(std::shared_ptr<const Basis> basis,
+[[nodiscard]] std::shared_ptr<const Encoder> make_moment_encoder(std::shared_ptr<const LinearBasis> basis,
                                                                  MomentSolver solver,
                                                                  const MomentOptions& options = {});
 

@@ -10,9 +10,10 @@ namespace lobelia {
 namespace {
 
 /// State: sum of weights, number of samples, then b (r, g, b arrays) and one number per lobe, each of size() floats.
-class SequentialEncoder : public Encoder {
+class SequentialEncoder : public LinearEncoder {
   public:
-    SequentialEncoder(std::shared_ptr<const Basis> basis_of, Sign sign) : Encoder(std::move(basis_of)), sign_(sign) {}
+    SequentialEncoder(std::shared_ptr<const LinearBasis> basis_of, Sign sign)
+        : LinearEncoder(std::move(basis_of)), sign_(sign) {}
 
     [[nodiscard]] std::size_t state_size() const override { return k_header + 4 * basis().size(); }
     [[nodiscard]] Merging merging() const override { return Merging::approximate; }
@@ -143,7 +144,7 @@ class RunningAverage final : public SequentialEncoder {
 
 class Progressive final : public SequentialEncoder {
   public:
-    Progressive(std::shared_ptr<const Basis> basis_of, Sign sign, const ProgressiveOptions& options)
+    Progressive(std::shared_ptr<const LinearBasis> basis_of, Sign sign, const ProgressiveOptions& options)
         : SequentialEncoder(std::move(basis_of), sign), options_(options) {
         const Matrix gram = basis().gram();
         const std::size_t n = basis().size();
@@ -228,7 +229,8 @@ class Progressive final : public SequentialEncoder {
 
 class MatrixGain final : public SequentialEncoder {
   public:
-    explicit MatrixGain(std::shared_ptr<const Basis> basis_of) : SequentialEncoder(std::move(basis_of), Sign::any) {
+    explicit MatrixGain(std::shared_ptr<const LinearBasis> basis_of)
+        : SequentialEncoder(std::move(basis_of), Sign::any) {
         const auto n = static_cast<Eigen::Index>(basis().size());
         const Matrix gram = basis().gram();
         Eigen::MatrixXd mean = Eigen::Map<const Eigen::MatrixXd>(gram.data(), n, n) / solid_angle(basis().domain());
@@ -260,16 +262,16 @@ class MatrixGain final : public SequentialEncoder {
 
 }  // namespace
 
-std::shared_ptr<const Encoder> make_running_average(std::shared_ptr<const Basis> basis, Sign sign) {
+std::shared_ptr<const Encoder> make_running_average(std::shared_ptr<const LinearBasis> basis, Sign sign) {
     return std::make_shared<RunningAverage>(std::move(basis), sign);
 }
 
-std::shared_ptr<const Encoder> make_progressive(std::shared_ptr<const Basis> basis, Sign sign,
+std::shared_ptr<const Encoder> make_progressive(std::shared_ptr<const LinearBasis> basis, Sign sign,
                                                 const ProgressiveOptions& options) {
     return std::make_shared<Progressive>(std::move(basis), sign, options);
 }
 
-std::shared_ptr<const Encoder> make_matrix_gain(std::shared_ptr<const Basis> basis) {
+std::shared_ptr<const Encoder> make_matrix_gain(std::shared_ptr<const LinearBasis> basis) {
     return std::make_shared<MatrixGain>(std::move(basis));
 }
 

@@ -11,7 +11,7 @@ namespace lobelia {
 enum class Sign { any, non_negative };
 
 /// running average, original: b_i += (v - est) w_i / sum w_i.
-[[nodiscard]] std::shared_ptr<const Encoder> make_running_average(std::shared_ptr<const Basis> basis, Sign sign);
+[[nodiscard]] std::shared_ptr<const Encoder> make_running_average(std::shared_ptr<const LinearBasis> basis, Sign sign);
 
 /// Progressive least squares: b_i += ((v - sum_{k != i} b_k w_k) w_i / S_i - b_i) a, a the sample's share so far.
 struct ProgressiveOptions {
@@ -28,11 +28,11 @@ struct ProgressiveOptions {
     /// correction of those before it; none: the plain form. Published with 3.
     std::optional<double> acceleration = {};
 };
-[[nodiscard]] std::shared_ptr<const Encoder> make_progressive(std::shared_ptr<const Basis> basis, Sign sign,
+[[nodiscard]] std::shared_ptr<const Encoder> make_progressive(std::shared_ptr<const LinearBasis> basis, Sign sign,
                                                               const ProgressiveOptions& options = {});
 
 /// b += G^-1 w (v - w . b) / (N + n), n coefficients, N samples so far: converges like batch least squares with the
 /// memory of the running average. Not to be clamped on the way; for non-negative output see non_negative moments.
-[[nodiscard]] std::shared_ptr<const Encoder> make_matrix_gain(std::shared_ptr<const Basis> basis);
+[[nodiscard]] std::shared_ptr<const Encoder> make_matrix_gain(std::shared_ptr<const LinearBasis> basis);
 
 }  // namespace lobelia

@@ -1,5 +1,5 @@
 // Reading functions of a direction in blocks: the one loop behind radiance and linear irradiance.
-#include "lobelia/basis.h"
+#include "lobelia/evaluator.h"
 
 #include "lobelia/kernels.h"
 
