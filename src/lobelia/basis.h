@@ -47,8 +47,8 @@ class Basis {
     [[nodiscard]] virtual std::shared_ptr<const Evaluator> evaluator(std::string_view name) const = 0;
     /// Names of the encoders with which the basis is listed; none: with all that suit it. Others work, too.
     [[nodiscard]] virtual std::vector<std::string> listed_encoders() const { return {}; }
-    /// In a constant environment of radiance 1, fitted exactly: how far E / pi by the most accurate evaluator is from 1
-    /// at most, at normals that see the domain only.
+    /// How far E / pi of the best fit to a constant radiance of 1 is from 1 at most, read exactly, at normals that see
+    /// the domain only.
     [[nodiscard]] virtual double furnace_bias() const { return 0.005; }
 
     /// The same radiance seen in a rotated frame, L'(R w) = L(w): a basis and coefficients that give it exactly.
@@ -64,7 +64,7 @@ class Basis {
 class LinearBasis : public Basis, public FunctionSet {
   public:
     [[nodiscard]] std::size_t size() const override = 0;
-    void radiance(std::span<const Rgb> c, DirectionView directions, MutableColourView out) const final {
+    void radiance(std::span<const Rgb> c, DirectionView directions, MutableColourView out) const override {
         evaluate(*this, c, directions, out);
     }
     [[nodiscard]] const LinearBasis* linear() const final { return this; }

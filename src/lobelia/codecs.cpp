@@ -3,6 +3,7 @@
 #include <array>
 #include <numeric>
 
+#include "lobelia/bases/cosine_lobes.h"
 #include "lobelia/bases/sg_study.h"
 #include "lobelia/bases/spherical_gaussians.h"
 #include "lobelia/bases/spherical_harmonics.h"
@@ -18,9 +19,11 @@ using LinearPtr = std::shared_ptr<const LinearBasis>;
 using EncoderPtr = std::shared_ptr<const Encoder>;
 
 /// The listed bases. A family (below) makes each from its name, and may know more names than are listed.
-constexpr std::array k_bases = {"sg12", "sg12h", "sh1", "sh2", "sh3", "sh4", "sh5", "sh6", "sh7", "sh8"};
+constexpr std::array k_bases = {"sg12", "sg12h", "sh1", "sh2",          "sh3", "sh4",      "sh5",
+                                "sh6",  "sh7",   "sh8", "ambient-cube", "hl2", "dice-srbf"};
 
-constexpr std::array k_families = {&SphericalGaussians::from_name, &SphericalHarmonics::from_name};
+constexpr std::array k_families = {&SphericalGaussians::from_name, &SphericalHarmonics::from_name,
+                                   &CosineLobes::from_name};
 
 constexpr std::array k_patterns = {
     NamePattern{"sg<N>, sg<N>a", "N spherical Gaussians on the sphere, 1 to 512; a: and an ambient lobe"},

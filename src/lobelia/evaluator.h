@@ -31,10 +31,16 @@ void evaluate(const FunctionSet& functions, std::span<const Rgb> c, DirectionVie
 void evaluate_many(const FunctionSet& functions, std::span<const std::span<const Rgb>> c, DirectionView directions,
                    std::span<const MutableColourView> out);
 
+/// of_radiance: E is the integral of the radiance that the basis reads from the same coefficients, but for a stated
+/// error. of_its_own: E is what shaders make of the coefficients, by a model or with a window.
+enum class Reading { of_radiance, of_its_own };
+
 /// The known accuracy of an evaluator, as its documentation and its tests state it.
 struct Accuracy {
-    std::string range;  ///< where it is valid, such as "sharpness 1 to 1000"
-    std::string error;  ///< the largest error there
+    std::string range;                       ///< where it is valid, such as "sharpness 1 to 1000"
+    std::string error;                       ///< the largest error there
+    Reading reading = Reading::of_radiance;  ///< and what it is an error of
+    double furnace = 0;  ///< of_its_own: largest |E / pi - 1| that it adds where a constant radiance of 1 is read
 };
 
 /// What becomes of a radiance or irradiance below 0, which no light has but a fit may: it stays, or is read as 0.
@@ -57,7 +63,7 @@ class Evaluator {
 /// An evaluator that is a vector of weights at a normal.
 class LinearEvaluator : public Evaluator, public FunctionSet {
   public:
-    void signed_irradiance(std::span<const Rgb> c, DirectionView normals, MutableColourView out) const final {
+    void signed_irradiance(std::span<const Rgb> c, DirectionView normals, MutableColourView out) const override {
         evaluate(*this, c, normals, out);
     }
     [[nodiscard]] const FunctionSet* weights() const final { return this; }

@@ -7,39 +7,76 @@
 #define HWY_TARGET_INCLUDE "lobelia/harmonics.cpp"
 #include <hwy/foreach_target.h>  // NOLINT: must precede highway.h
 #include <hwy/highway.h>
+// NOLINTNEXTLINE: after highway.h
+#include "lobelia/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lobelia::harmonics::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
+using lobelia::HWY_NAMESPACE::D;
+using lobelia::HWY_NAMESPACE::V;
 
-/// Fills the rows; `table` holds for each order m its first value Q_m^m, then a pair (a, a b) for each l > m, with
-/// Q_l = a z Q_{l-1} - a b Q_{l-2}.
-void Values(std::size_t degree, const float* table, DirectionView block, float* rows) {
-    const hn::CappedTag<float, k_lanes> d;
-    using V = hn::Vec<decltype(d)>;
-    for (std::size_t j = 0; j < block.size; j += hn::Lanes(d)) {
-        const V x = hn::LoadU(d, block.channel(0) + j), y = hn::LoadU(d, block.channel(1) + j),
-                z = hn::LoadU(d, block.channel(2) + j);
-        V cosine = hn::Set(d, 1.0f), sine = hn::Zero(d);
-        const float* constants = table;
-        for (std::size_t m = 0; m <= degree; ++m) {
-            V q = hn::Set(d, *constants++), previous = hn::Zero(d);
-            for (std::size_t l = m; l <= degree; ++l) {
-                float* centre = rows + (l * l + l) * k_block_size + j;
-                hn::StoreU(hn::Mul(q, cosine), d, centre + m * k_block_size);
-                if (m > 0) hn::StoreU(hn::Mul(q, sine), d, centre - m * k_block_size);
-                if (l == degree) break;
-                const V a = hn::Set(d, constants[0]), ab = hn::Set(d, constants[1]);
-                constants += 2;
-                const V next = hn::NegMulAdd(ab, previous, hn::Mul(hn::Mul(a, z), q));
-                previous = q;
-                q = next;
-            }
-            // Step to (x + iy)^(m + 1).
-            const V turned = hn::NegMulAdd(y, sine, hn::Mul(x, cosine));
-            sine = hn::MulAdd(x, sine, hn::Mul(y, cosine));
-            cosine = turned;
+/// Calls `visit(i, value)` for the harmonics at the directions from entry j on; `table` holds for each order m its
+/// first value Q_m^m, then a pair (a, a b) for each l > m, with Q_l = a z Q_{l-1} - a b Q_{l-2}.
+template <class Visit>
+HWY_INLINE void for_each_harmonic(std::size_t degree, const float* table, DirectionView block, std::size_t j,
+                                  const Visit& visit) {
+    const D d;
+    const auto [x, y, z] = lobelia::HWY_NAMESPACE::load(d, block, j);
+    V cosine = hn::Set(d, 1.0f), sine = hn::Zero(d);
+    for (std::size_t m = 0; m <= degree; ++m) {
+        V q = hn::Set(d, *table++), previous = hn::Zero(d);
+        for (std::size_t l = m; l <= degree; ++l) {
+            visit(l * l + l + m, hn::Mul(q, cosine));
+            if (m > 0) visit(l * l + l - m, hn::Mul(q, sine));
+            if (l == degree) break;
+            const V next = hn::NegMulAdd(hn::Set(d, table[1]), previous, hn::Mul(hn::Mul(hn::Set(d, table[0]), z), q));
+            table += 2;
+            previous = q;
+            q = next;
         }
+        // Step to (x + iy)^(m + 1).
+        const V turned = hn::NegMulAdd(y, sine, hn::Mul(x, cosine));
+        sine = hn::MulAdd(x, sine, hn::Mul(y, cosine));
+        cosine = turned;
+    }
+}
+
+void Values(std::size_t degree, const float* table, DirectionView block, float* rows) {
+    const D d;
+    for (std::size_t j = 0; j < block.size; j += hn::Lanes(d))
+        for_each_harmonic(degree, table, block, j,
+                          [&](std::size_t i, V value) HWY_ATTR { hn::StoreU(value, d, rows + i * k_block_size + j); });
+}
+
+template <std::size_t degree>
+void sum(const float* table, const Rgb* c, DirectionView directions, MutableColourView out) {
+    const D d;
+    for (std::size_t j = 0; j < directions.size; j += hn::Lanes(d)) {
+        V r = hn::Zero(d), g = r, b = r;
+        for_each_harmonic(degree, table, directions, j, [&](std::size_t i, V value) HWY_ATTR {
+            r = hn::MulAdd(hn::Set(d, c[i].r), value, r);
+            g = hn::MulAdd(hn::Set(d, c[i].g), value, g);
+            b = hn::MulAdd(hn::Set(d, c[i].b), value, b);
+        });
+        lobelia::HWY_NAMESPACE::store(d, r, out.channel(0), j, out.size);
+        lobelia::HWY_NAMESPACE::store(d, g, out.channel(1), j, out.size);
+        lobelia::HWY_NAMESPACE::store(d, b, out.channel(2), j, out.size);
+    }
+}
+
+void Sum(std::size_t degree, const float* table, const Rgb* c, DirectionView directions, MutableColourView out) {
+    switch (degree) {
+        case 1:
+            return sum<1>(table, c, directions, out);
+        case 2:
+            return sum<2>(table, c, directions, out);
+        case 3:
+            return sum<3>(table, c, directions, out);
+        case 4:
+            return sum<4>(table, c, directions, out);
+        default:
+            return;
     }
 }
 
@@ -50,6 +87,7 @@ HWY_AFTER_NAMESPACE();
 namespace lobelia::harmonics {
 
 HWY_EXPORT(Values);
+HWY_EXPORT(Sum);
 
 double clamped_cosine(std::size_t l) {
     if (l == 0) return k_pi;
@@ -82,6 +120,14 @@ Harmonics::Harmonics(std::size_t degree) : degree_(degree) {
 
 void Harmonics::values(DirectionView block, float* rows) const {
     HWY_DYNAMIC_DISPATCH(Values)(degree_, table_.data(), block, rows);
+}
+
+void Harmonics::sum(std::span<const Rgb> c, DirectionView directions, MutableColourView out) const {
+    assert(c.size() == size() && directions.size == out.size);
+    // The rows of higher degrees are many, and adding them up by blocks is as fast.
+    constexpr std::size_t highest_in_registers = 4;
+    if (degree_ == 0 || degree_ > highest_in_registers) return evaluate(*this, c, directions, out);
+    HWY_DYNAMIC_DISPATCH(Sum)(degree_, table_.data(), c.data(), directions, out);
 }
 
 std::vector<double> values(std::size_t degree, double x, double y, double z) {

@@ -10,13 +10,15 @@
 #define HWY_TARGET_INCLUDE "lobelia/kernels.cpp"
 #include <hwy/foreach_target.h>  // NOLINT: must precede highway.h
 #include <hwy/highway.h>
+// NOLINTNEXTLINE: after highway.h
+#include "lobelia/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lobelia::kernels::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
-
-using D = hn::CappedTag<float, k_lanes>;
-using V = hn::Vec<D>;
+using lobelia::HWY_NAMESPACE::D;
+using lobelia::HWY_NAMESPACE::store;
+using lobelia::HWY_NAMESPACE::V;
 
 /// Sum of all lanes.
 HWY_INLINE float reduce(D d, V v) { return hn::GetLane(hn::SumOfLanes(d, v)); }
@@ -24,17 +26,6 @@ HWY_INLINE float reduce(D d, V v) { return hn::GetLane(hn::SumOfLanes(d, v)); }
 /// Lanes of `v` at entries j .. that lie before `size`, zero beyond.
 HWY_INLINE V before(D d, V v, std::size_t j, std::size_t size) {
     return j + hn::Lanes(d) <= size ? v : hn::IfThenElseZero(hn::FirstN(d, size - j), v);
-}
-
-/// Stores lanes j .. of a row of `size` floats, nothing beyond its end.
-HWY_INLINE void store(D d, V v, float* row, std::size_t j, std::size_t size) {
-    if (j + hn::Lanes(d) <= size) {
-        hn::StoreU(v, d, row + j);
-    } else {
-        alignas(64) float lanes[k_lanes];
-        hn::Store(v, d, lanes);
-        std::copy_n(lanes, size - j, row + j);
-    }
 }
 
 /// Samples whose flux (radiance times solid angle) stays in the first-level cache beside their directions.

@@ -44,7 +44,9 @@
 #include "lobelia/bases/gaussian.h"
 #include "lobelia/bases/sg_irradiance.h"
 #include "lobelia/bases/spherical_gaussians.h"
+#include "lobelia/bases/sh_irradiance.h"
 #include "lobelia/bases/spherical_harmonics.h"
+#include "lobelia/bases/cosine_lobes.h"
 
 // Encoders.
 #include "lobelia/encode/encoder.h"

@@ -42,6 +42,8 @@ class SphericalGaussians final : public LinearBasis {
     [[nodiscard]] std::vector<double> integrals() const override;
     [[nodiscard]] std::vector<std::string> evaluator_names() const override;
     [[nodiscard]] std::shared_ptr<const Evaluator> evaluator(std::string_view name) const override;
+    /// That of twelve lobes; larger sets have less.
+    [[nodiscard]] double furnace_bias() const override { return 0.04; }
     [[nodiscard]] Rotated rotated(const Rotation& r, std::span<const Rgb> c) const override;
 
   private:

@@ -1,36 +1,10 @@
-// Spherical harmonics as a basis, and their irradiance by convolution with the clamped cosine.
+// Spherical harmonics as a basis.
 #include "lobelia/bases/spherical_harmonics.h"
 
 namespace lobelia {
 namespace {
 
 constexpr std::size_t k_highest_degree = 8;
-
-/// E(n) = sum A_l L_lm Y_lm(n): exact for the radiance that the coefficients describe.
-class ConvolvedHarmonics final : public LinearEvaluator {
-  public:
-    ConvolvedHarmonics(std::size_t degree, Negative negative) : harmonics_(degree), negative_(negative) {}
-    [[nodiscard]] std::string name() const override {
-        return negative_ == Negative::clamped ? "convolution" : "convolution-signed";
-    }
-    [[nodiscard]] Negative negative() const override { return negative_; }
-    [[nodiscard]] Accuracy accuracy() const override {
-        return {"every degree", "1e-6 of the largest E (float32 rounding)"};
-    }
-    [[nodiscard]] std::size_t size() const override { return harmonics_.size(); }
-    void values(DirectionView block, float* rows) const override {
-        harmonics_.values(block, rows);
-        for (std::size_t l = 0; l <= harmonics_.degree(); ++l) {
-            const auto scale = static_cast<float>(harmonics::clamped_cosine(l));
-            for (std::size_t i = l * l; i < (l + 1) * (l + 1); ++i)
-                for (std::size_t j = 0; j < block.size; ++j) rows[i * k_block_size + j] *= scale;
-        }
-    }
-
-  private:
-    harmonics::Harmonics harmonics_;
-    Negative negative_;
-};
 
 }  // namespace
 
@@ -66,14 +40,6 @@ std::vector<double> SphericalHarmonics::integrals() const {
     std::vector<double> result(size());
     result[0] = std::sqrt(4 * k_pi);
     return result;
-}
-
-std::shared_ptr<const Evaluator> SphericalHarmonics::evaluator(std::string_view name) const {
-    for (Negative negative : {Negative::clamped, Negative::kept}) {
-        auto found = std::make_shared<ConvolvedHarmonics>(harmonics_.degree(), negative);
-        if (found->name() == name) return found;
-    }
-    return nullptr;
 }
 
 Basis::Rotated SphericalHarmonics::rotated(const Rotation& r, std::span<const Rgb> c) const {

@@ -2,7 +2,7 @@
 // Ramamoorthi and Hanrahan 2001; Sloan 2008.
 #pragma once
 
-#include "lobelia/harmonics.h"
+#include "lobelia/bases/sh_irradiance.h"
 #include "lobelia/result.h"
 
 namespace lobelia {
@@ -16,6 +16,9 @@ class SphericalHarmonics final : public LinearBasis {
 
     [[nodiscard]] std::size_t size() const override { return harmonics_.size(); }
     void values(DirectionView block, float* rows) const override { harmonics_.values(block, rows); }
+    void radiance(std::span<const Rgb> c, DirectionView directions, MutableColourView out) const override {
+        harmonics_.sum(c, directions, out);
+    }
     [[nodiscard]] std::string name() const override;
     [[nodiscard]] std::string description() const override;
     [[nodiscard]] BasisNotes notes() const override;
@@ -23,12 +26,12 @@ class SphericalHarmonics final : public LinearBasis {
     [[nodiscard]] bool is_non_negative() const override { return false; }
     [[nodiscard]] Matrix gram() const override;
     [[nodiscard]] std::vector<double> integrals() const override;
-    /// convolution: E(n) = sum A_l L_lm Y_lm(n), negative L and E read as 0, as shaders do. convolution-signed: as it
-    /// is.
     [[nodiscard]] std::vector<std::string> evaluator_names() const override {
-        return {"convolution", "convolution-signed"};
+        return sh_evaluator_names(harmonics_.degree());
     }
-    [[nodiscard]] std::shared_ptr<const Evaluator> evaluator(std::string_view name) const override;
+    [[nodiscard]] std::shared_ptr<const Evaluator> evaluator(std::string_view name) const override {
+        return sh_evaluator(name, harmonics_.degree());
+    }
     [[nodiscard]] Rotated rotated(const Rotation& r, std::span<const Rgb> c) const override;
 
   private:

@@ -1,0 +1,162 @@
+// What bases state of themselves in closed form equals quadrature: Gram matrices, integrals, irradiance.
+#include <gtest/gtest.h>
+
+#include "lobelia/bases/cosine_lobes.h"
+#include "lobelia/bases/icosahedron.h"
+#include "lobelia/codec.h"
+#include "support.h"
+
+namespace lobelia {
+namespace {
+
+std::shared_ptr<const LinearBasis> linear(const std::string& name) { return as_linear(make_basis(name).value()); }
+
+std::vector<std::string> linear_names() {
+    std::vector<std::string> names;
+    for (const auto& name : basis_names())
+        if (make_basis(name).value()->linear()) names.push_back(name);
+    return names;
+}
+
+/// Heights of a product rule that integrates the functions of a basis, and the relative error that is left: functions
+/// with creases and steps are integrated slowly.
+struct Rule {
+    std::size_t heights = 64;
+    double error = 2e-6;
+};
+Rule rule_for(const std::string& name) {
+    if (name.starts_with("ambient-cube") || name == "hl2" || name == "dice-srbf") return {256, 2e-5};
+    return {};
+}
+
+/// Test functions stay under ten seconds: bases beyond this many functions are tested by smaller ones of their kind.
+constexpr std::size_t k_most_functions = 64;
+
+TEST(EveryLinearBasis, GramAndIntegralsEqualQuadrature) {
+    for (const auto& name : linear_names()) {
+        const auto basis = linear(name);
+        const std::size_t n = basis->size();
+        if (n > k_most_functions) continue;
+        const Rule rule = rule_for(name);
+        const SphereRule points = product_rule(basis->domain(), rule.heights);
+        const Matrix gram = basis->gram(), numeric = inner_products(*basis, *basis, points);
+        const auto sums = basis->integrals(), numeric_sums = integrals(*basis, points);
+        for (std::size_t i = 0; i < n; ++i) {
+            const double norm = std::sqrt(gram[i * n + i]);
+            EXPECT_NEAR(sums[i], numeric_sums[i], 4 * rule.error * norm) << name << " " << i;
+            for (std::size_t j = 0; j < n; ++j) {
+                EXPECT_NEAR(gram[i * n + j], numeric[i * n + j], rule.error * norm * std::sqrt(gram[j * n + j]))
+                    << name << " " << i << " " << j;
+                EXPECT_EQ(gram[i * n + j], gram[j * n + i]) << name;
+            }
+        }
+    }
+}
+
+TEST(EveryLinearBasis, IsNonNegativeWhereItSaysSo) {
+    for (const auto& name : linear_names()) {
+        const auto basis = linear(name);
+        const Directions directions = test::random_directions(basis->domain(), 256, 3);
+        std::vector<float> rows(basis->size() * k_block_size);
+        basis->values(directions, rows.data());
+        const float least = *std::min_element(rows.begin(), rows.end());
+        EXPECT_EQ(least >= 0, basis->is_non_negative()) << name;
+    }
+}
+
+/// The rotation that takes +z to n.
+Rotation frame_of(Vec3 n) {
+    const Vec3 t = normalize(cross(std::abs(n.x) < 0.9f ? Vec3{1, 0, 0} : Vec3{0, 1, 0}, n)), b = cross(n, t);
+    return {Vec3{t.x, b.x, n.x}, Vec3{t.y, b.y, n.y}, Vec3{t.z, b.z, n.z}};
+}
+
+/// Irradiance at n of the radiance that coefficients stand for, by a rule over the hemisphere about n.
+Rgb numeric_irradiance(const Basis& basis, std::span<const Rgb> c, Vec3 n, const SphereRule& rule) {
+    const Directions directions = test::turned(rule.directions, frame_of(n));
+    Colours radiance(directions.size());
+    basis.radiance(c, directions, radiance);
+    double sums[3] = {};
+    for (std::size_t k = 0; k < 3; ++k)
+        for (std::size_t j = 0; j < directions.size(); ++j)
+            sums[k] += rule.weights[j] * rule.directions.channel(2)[j] * radiance.channel(k)[j];
+    return {static_cast<float>(sums[0]), static_cast<float>(sums[1]), static_cast<float>(sums[2])};
+}
+
+/// Coefficients of a small sky, and of a patch with a gradient.
+std::vector<Rgb> some_coefficients(const std::shared_ptr<const Basis>& basis) {
+    Accumulator accumulator(make_encoder(encoder_names(*basis).front(), basis).value());
+    accumulator.add(test::samples_of(basis->domain(), 4096, [](Vec3 d) {
+        const float a = dot(d, normalize(Vec3{1, 2, 3}));
+        return Rgb{1 + d.x + 4 * std::exp(8 * (a - 1)), 0.5f + std::exp(8 * (a - 1)), 0.2f};
+    }));
+    return accumulator.solve();
+}
+
+TEST(EveryBasis, ExactIrradianceIsTheIntegralOfItsRadiance) {
+    const SphereRule rule = product_rule(Domain::hemisphere, 128);
+    for (const auto& name : basis_names()) {
+        const auto basis = make_basis(name).value();
+        const auto evaluator = basis->evaluator(basis->evaluator_names().back());
+        if (evaluator->accuracy().reading != Reading::of_radiance) continue;
+        const auto c = some_coefficients(basis);
+        // Over the hemisphere: at the normal whose light is all above the horizon.
+        Directions normals = test::random_directions(Domain::sphere, basis->domain() == Domain::sphere ? 20 : 1, 6);
+        if (basis->domain() == Domain::hemisphere) set_entry(normals.view(), 0, Vec3{0, 0, 1});
+        Colours E(normals.size());
+        evaluator->signed_irradiance(c, normals, E);
+        const double scale = test::largest(E);
+        for (std::size_t j = 0; j < normals.size(); ++j) {
+            const Rgb expected = numeric_irradiance(*basis, c, direction_at(normals, j), rule);
+            EXPECT_LE(test::norm(colour_at(E.view(), j) - expected), 1e-4 * scale) << name << " " << j;
+        }
+    }
+}
+
+// ---- Clamped cosine powers ----
+
+TEST(CosineLobes, ProductsEqualQuadratureOverBothDomains) {
+    const SphereRule sphere = product_rule(Domain::sphere, 200), hemisphere = product_rule(Domain::hemisphere, 200);
+    const Directions axes = test::random_directions(Domain::sphere, 12, 8);
+    for (const Domain domain : {Domain::sphere, Domain::hemisphere}) {
+        const SphereRule& rule = domain == Domain::sphere ? sphere : hemisphere;
+        for (std::size_t i = 0; i < 12; i += 2)
+            for (const auto powers : {std::array{2, 2}, {2, 4}, {4, 4}, {2, 0}}) {
+                const Vec3 p = direction_at(axes, i), q = i == 0 ? p : direction_at(axes, i + 1);
+                double sum = 0;
+                for (std::size_t j = 0; j < rule.directions.size(); ++j) {
+                    const Vec3 w = direction_at(rule.directions.view(), j);
+                    const double a = dot(w, p), b = dot(w, q);
+                    if (a > 0 && b > 0) sum += rule.weights[j] * std::pow(a, powers[0]) * std::pow(b, powers[1]);
+                }
+                EXPECT_NEAR(clamped_power_product(domain, {p, q}, powers), sum, powers[1] == 0 ? 2e-3 : 2e-5)
+                    << i << " " << powers[0] << powers[1];
+            }
+    }
+}
+
+TEST(CosineLobes, KnownProducts) {
+    const auto product = [](Vec3 p, Vec3 q) { return clamped_power_product(Domain::sphere, {p, q}, {2, 2}); };
+    EXPECT_NEAR(product({1, 0, 0}, {1, 0, 0}), 2 * k_pi / 5, 1e-12);
+    EXPECT_NEAR(product({1, 0, 0}, {0, 1, 0}), k_pi / 15, 1e-12);
+    EXPECT_NEAR(product({1, 0, 0}, {-1, 0, 0}), 0, 1e-12);
+}
+
+TEST(Icosahedron, IsRegular) {
+    const auto& v = icosahedron::vertices();
+    for (std::size_t i = 0; i < 12; ++i) {
+        EXPECT_NEAR(length(v[i]), 1, 1e-6);
+        EXPECT_EQ(v[i ^ 1], v[i] * -1.0f);
+    }
+    std::array<int, 12> uses{};
+    for (const auto& face : icosahedron::faces()) {
+        EXPECT_GT(dot(cross(v[face[0]], v[face[1]]), v[face[2]]), 0);
+        for (std::size_t k = 0; k < 3; ++k) {
+            EXPECT_NEAR(dot(v[face[k]], v[face[(k + 1) % 3]]), 1 / std::sqrt(5.0), 1e-6);
+            ++uses[face[k]];
+        }
+    }
+    for (const int count : uses) EXPECT_EQ(count, 5);
+}
+
+}  // namespace
+}  // namespace lobelia
