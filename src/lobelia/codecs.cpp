@@ -4,6 +4,8 @@
 #include <numeric>
 
 #include "lobelia/bases/cosine_lobes.h"
+#include "lobelia/bases/hemisphere_polynomials.h"
+#include "lobelia/bases/octahedral.h"
 #include "lobelia/bases/sg_study.h"
 #include "lobelia/bases/spherical_gaussians.h"
 #include "lobelia/bases/spherical_harmonics.h"
@@ -19,16 +21,18 @@ using LinearPtr = std::shared_ptr<const LinearBasis>;
 using EncoderPtr = std::shared_ptr<const Encoder>;
 
 /// The listed bases. A family (below) makes each from its name, and may know more names than are listed.
-constexpr std::array k_bases = {"sg12", "sg12h", "sh1", "sh2",          "sh3", "sh4",      "sh5",
-                                "sh6",  "sh7",   "sh8", "ambient-cube", "hl2", "dice-srbf"};
+constexpr std::array k_bases = {"sg12", "sg12h",        "sh1", "sh2", "sh3", "sh4",  "sh5",   "sh6",      "sh7",
+                                "sh8",  "ambient-cube", "hl2", "h4",  "h6",  "oct8", "oct16", "dice-srbf"};
 
 constexpr std::array k_families = {&SphericalGaussians::from_name, &SphericalHarmonics::from_name,
-                                   &CosineLobes::from_name};
+                                   &CosineLobes::from_name, &HemispherePolynomials::from_name,
+                                   &OctahedralTexels::from_name};
 
 constexpr std::array k_patterns = {
     NamePattern{"sg<N>, sg<N>a", "N spherical Gaussians on the sphere, 1 to 512; a: and an ambient lobe"},
     NamePattern{"sg<N>h", "N on the hemisphere"},
     NamePattern{"sg<N>@S", "any of these with sharpness S, 0.01 to 10000, instead of their own"},
+    NamePattern{"oct<N>", "N x N octahedral texels, N even, 2 to 64"},
     NamePattern{"sg:FILE, sgh:FILE", "lobes from a file, a line \"x y z sharpness\" or \"ambient\" each"},
 };
 

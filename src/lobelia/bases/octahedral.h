@@ -1,0 +1,72 @@
+// Octahedral texels: constant radiance in each of N x N cells that tile the sphere. The big reference among bases, and
+// what lobes are fitted from. Praun and Hoppe 2003; Engelhardt and Dachsbacher 2008.
+#pragma once
+
+#include <array>
+
+#include "lobelia/basis.h"
+#include "lobelia/result.h"
+
+namespace lobelia {
+
+/// The octahedron |x| + |y| + |z| = 1, its lower faces folded up and out, as a grid of `resolution`^2 cells in rows; an
+/// even resolution, so that no cell lies across an edge other than along its diagonal.
+struct OctahedralMap {
+    std::size_t resolution = 2;
+
+    [[nodiscard]] std::size_t size() const { return resolution * resolution; }
+    /// Direction of the point (u, v) of [-1, 1]^2. The middle is +z, the corners are -z.
+    [[nodiscard]] static Vec3 direction(double u, double v);
+    /// Index of the cell that holds a unit direction: v's row, u's column.
+    [[nodiscard]] std::size_t index(Vec3 direction) const;
+    /// Integrals over a cell [sr]: exact, since it is two spherical triangles, but for the second moment, which is by
+    /// quadrature (relative error below 1e-5).
+    struct Cell {
+        double solid_angle = 0;
+        std::array<double, 3> first_moment{};   ///< of w
+        std::array<double, 6> second_moment{};  ///< of xx, yy, zz, xy, yz, xz
+    };
+    [[nodiscard]] Cell cell(std::size_t index) const;
+};
+
+class OctahedralTexels final : public LinearBasis {
+  public:
+    explicit OctahedralTexels(std::size_t resolution,
+                              const Rotation& map_from_domain = {Vec3{1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
+    /// oct<N>, N even, 2 to 64. Null if the name is of another family.
+    [[nodiscard]] static Result<std::shared_ptr<const Basis>> from_name(std::string_view name);
+
+    [[nodiscard]] std::size_t size() const override { return map_.size(); }
+    void values(DirectionView block, float* rows) const override;
+    void radiance(std::span<const Rgb> c, DirectionView directions, MutableColourView out) const override;
+    [[nodiscard]] std::string name() const override { return "oct" + std::to_string(map_.resolution); }
+    [[nodiscard]] std::string description() const override;
+    [[nodiscard]] BasisNotes notes() const override;
+    [[nodiscard]] Domain domain() const override { return Domain::sphere; }
+    [[nodiscard]] bool is_non_negative() const override { return true; }
+    [[nodiscard]] Matrix gram() const override;
+    [[nodiscard]] std::vector<double> integrals() const override;
+    /// centroid: each cell as its solid angle at its mean direction, blended over its width where the horizon cuts it.
+    [[nodiscard]] std::vector<std::string> evaluator_names() const override { return {"centroid"}; }
+    [[nodiscard]] std::shared_ptr<const Evaluator> evaluator(std::string_view name) const override;
+    /// Cells do not overlap: the running average is least squares, and others are no better.
+    [[nodiscard]] std::vector<std::string> listed_encoders() const override { return {"running-average", "moments"}; }
+    [[nodiscard]] Rotated rotated(const Rotation& r, std::span<const Rgb> c) const override;
+
+    [[nodiscard]] const OctahedralMap& map() const { return map_; }
+    /// Each cell in short, in the frame of the map: mean direction (shorter than 1), the variance of w about it (xx,
+    /// yy, zz, xy, yz, xz), solid angle.
+    struct Centroid {
+        Vec3 mean;
+        std::array<float, 6> variance{};
+        float solid_angle = 0;
+    };
+    [[nodiscard]] const std::vector<Centroid>& centroids() const { return centroids_; }
+
+  private:
+    OctahedralMap map_;
+    Rotation map_from_domain_;
+    std::vector<Centroid> centroids_;
+};
+
+}  // namespace lobelia
