@@ -3,12 +3,18 @@
 #include <array>
 #include <numeric>
 
+#include "lobelia/bases/ahd.h"
+#include "lobelia/bases/ambient_cube_irradiance.h"
+#include "lobelia/bases/ambient_dice.h"
 #include "lobelia/bases/cosine_lobes.h"
+#include "lobelia/bases/directional_lightmaps.h"
+#include "lobelia/bases/fitted_gaussians.h"
 #include "lobelia/bases/hemisphere_polynomials.h"
 #include "lobelia/bases/octahedral.h"
 #include "lobelia/bases/sg_study.h"
 #include "lobelia/bases/spherical_gaussians.h"
 #include "lobelia/bases/spherical_harmonics.h"
+#include "lobelia/bases/zh3.h"
 #include "lobelia/codec.h"
 #include "lobelia/encode/moments.h"
 #include "lobelia/encode/sequential.h"
@@ -21,17 +27,24 @@ using LinearPtr = std::shared_ptr<const LinearBasis>;
 using EncoderPtr = std::shared_ptr<const Encoder>;
 
 /// The listed bases. A family (below) makes each from its name, and may know more names than are listed.
-constexpr std::array k_bases = {"sg12", "sg12h",        "sh1", "sh2", "sh3", "sh4",  "sh5",   "sh6",      "sh7",
-                                "sh8",  "ambient-cube", "hl2", "h4",  "h6",  "oct8", "oct16", "dice-srbf"};
+constexpr std::array k_bases = {
+    "sg12",      "sg12h",        "sh1",        "sh2", "sh3",     "sh4",          "sh5",
+    "sh6",       "sh7",          "sh8",        "zh3", "zh3-rgb", "ambient-cube", "ambient-cube-e",
+    "dice-srbf", "dice-bezier",  "dice-ycocg", "ahd", "sgfit3",  "sgfit4",       "sgfit6",
+    "oct8",      "oct16",        "hl2",        "h4",  "h6",      "sh1h",         "irradz",
+    "enlighten", "enlighten-rgb"};
 
-constexpr std::array k_families = {&SphericalGaussians::from_name, &SphericalHarmonics::from_name,
-                                   &CosineLobes::from_name, &HemispherePolynomials::from_name,
-                                   &OctahedralTexels::from_name};
+constexpr std::array k_families = {
+    &SphericalGaussians::from_name,    &SphericalHarmonics::from_name,    &Zh3::from_name,
+    &CosineLobes::from_name,           &AmbientCubeIrradiance::from_name, &AmbientDice::from_name,
+    &AmbientHighlight::from_name,      &FittedGaussians::from_name,       &OctahedralTexels::from_name,
+    &HemispherePolynomials::from_name, &DirectionalLightmap::from_name};
 
 constexpr std::array k_patterns = {
     NamePattern{"sg<N>, sg<N>a", "N spherical Gaussians on the sphere, 1 to 512; a: and an ambient lobe"},
     NamePattern{"sg<N>h", "N on the hemisphere"},
     NamePattern{"sg<N>@S", "any of these with sharpness S, 0.01 to 10000, instead of their own"},
+    NamePattern{"sgfit<N>", "N spherical Gaussians with fitted axes and sharpness, 1 to 12"},
     NamePattern{"oct<N>", "N x N octahedral texels, N even, 2 to 64"},
     NamePattern{"sg:FILE, sgh:FILE", "lobes from a file, a line \"x y z sharpness\" or \"ambient\" each"},
 };

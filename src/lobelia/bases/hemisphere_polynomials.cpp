@@ -103,7 +103,8 @@ class Projected final : public LinearEvaluator {
     }
     [[nodiscard]] std::string name() const override { return "projected"; }
     [[nodiscard]] Accuracy accuracy() const override {
-        return {"normals above the horizon", "0.18 for each unit of a coefficient, near the horizon", Reading::of_its_own, 1e-4};
+        return {"normals above the horizon", "0.18 for each unit of a coefficient, near the horizon",
+                Reading::of_its_own, 1e-4};
     }
     [[nodiscard]] std::size_t size() const override { return basis_.size(); }
     void values(DirectionView block, float* rows) const override {

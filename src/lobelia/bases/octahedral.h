@@ -54,6 +54,7 @@ class OctahedralTexels final : public LinearBasis {
     [[nodiscard]] Rotated rotated(const Rotation& r, std::span<const Rgb> c) const override;
 
     [[nodiscard]] const OctahedralMap& map() const { return map_; }
+    [[nodiscard]] const Rotation& map_from_domain() const { return map_from_domain_; }
     /// Each cell in short, in the frame of the map: mean direction (shorter than 1), the variance of w about it (xx,
     /// yy, zz, xy, yz, xz), solid angle.
     struct Centroid {

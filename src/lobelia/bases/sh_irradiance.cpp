@@ -6,6 +6,7 @@
 #include <limits>
 #include <numeric>
 
+#include "lobelia/bases/degree_2.h"
 #include "lobelia/bases/zonal_quadratic.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -118,7 +119,6 @@ class Model final : public Evaluator {
     Read read_;
 };
 
-float channel_of(Rgb c, std::size_t k) { return k == 0 ? c.r : k == 1 ? c.g : c.b; }
 /// Band 1 of one channel as a vector.
 Vec3 vector_of(std::span<const Rgb> c, std::size_t k) {
     return {channel_of(c[3], k), channel_of(c[1], k), channel_of(c[2], k)};

@@ -128,6 +128,10 @@ Result<std::vector<Lobe>> read_lobes(const std::string& path) {
     return parse_lobes(file, path);
 }
 
+void gaussian_row(const Lobe& lobe, DirectionView block, float* row) {
+    HWY_DYNAMIC_DISPATCH(GaussianRow)(lobe, block, row);
+}
+
 SphericalGaussians::SphericalGaussians(std::string name, std::vector<Lobe> lobes, Domain domain)
     : name_(std::move(name)), lobes_(std::move(lobes)), domain_(domain) {}
 
@@ -170,8 +174,7 @@ Result<std::shared_ptr<const Basis>> SphericalGaussians::from_name(std::string_v
 }
 
 void SphericalGaussians::values(DirectionView block, float* rows) const {
-    for (std::size_t i = 0; i < lobes_.size(); ++i)
-        HWY_DYNAMIC_DISPATCH(GaussianRow)(lobes_[i], block, rows + i * k_block_size);
+    for (std::size_t i = 0; i < lobes_.size(); ++i) gaussian_row(lobes_[i], block, rows + i * k_block_size);
 }
 
 std::string SphericalGaussians::description() const {

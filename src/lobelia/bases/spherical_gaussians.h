@@ -20,6 +20,9 @@ namespace lobelia {
 /// Lobes from a text file: a line "x y z sharpness" each (the axis is normalised), or "ambient"; # starts a comment.
 [[nodiscard]] Result<std::vector<gaussian::Lobe>> read_lobes(const std::string& path);
 
+/// row[j] = G(direction j) of a lobe, for a whole block as FunctionSet::values.
+void gaussian_row(const gaussian::Lobe& lobe, DirectionView block, float* row);
+
 class SphericalGaussians final : public LinearBasis {
   public:
     SphericalGaussians(std::string name, std::vector<gaussian::Lobe> lobes, Domain domain);

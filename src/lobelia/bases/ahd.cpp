@@ -1,0 +1,169 @@
+// Ambient and highlight: two linear unknowns given a direction, and a search for the direction.
+#include "lobelia/bases/ahd.h"
+
+#include <algorithm>
+#include <array>
+
+#include "lobelia/bases/degree_2.h"
+#include "lobelia/bases/spherical_harmonics.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "lobelia/bases/ahd.cpp"
+#include <hwy/foreach_target.h>  // NOLINT: must precede highway.h
+#include <hwy/highway.h>
+// NOLINTNEXTLINE: after highway.h
+#include "lobelia/lanes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lobelia::HWY_NAMESPACE {
+
+/// out = constant + factor max(0, w . d)^(2^squarings).
+void HighlightRows(const Rgb& constant, const Rgb& factor, const Vec3& axis, int squarings, DirectionView directions,
+                   MutableColourView out) {
+    const D d;
+    const float constants[] = {constant.r, constant.g, constant.b}, factors[] = {factor.r, factor.g, factor.b};
+    for (std::size_t j = 0; j < directions.size; j += hn::Lanes(d)) {
+        V power = hn::Max(dot(d, axis, load(d, directions, j)), hn::Zero(d));
+        for (int i = 0; i < squarings; ++i) power = hn::Mul(power, power);
+        for (std::size_t k = 0; k < 3; ++k)
+            store(d, hn::MulAdd(hn::Set(d, factors[k]), power, hn::Set(d, constants[k])), out.channel(k), j, out.size);
+    }
+}
+
+}  // namespace lobelia::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace lobelia {
+
+HWY_EXPORT(HighlightRows);
+
+namespace {
+
+/// The lobe that stands for the highlight: max(0, w . d)^8, squared three times.
+constexpr int k_squarings = 3;
+const auto k_lobe_factor = static_cast<float>((8 + 1) / (2 * k_pi));
+
+/// The light as the fit sees it: E over all normals against 1 and against max(0, n . d), up to degree 2.
+class Target {
+  public:
+    explicit Target(std::span<const Rgb> c) : channels_{degree_2(c, 0), degree_2(c, 1), degree_2(c, 2)} {}
+
+    struct Fit {
+        std::array<double, 3> ambient{}, highlight{};
+        double saved = 0;  ///< squared error that it saves against nothing at all
+    };
+    /// The best non-negative a and H of E = pi a + H max(0, n . d). Over all normals <1, 1> = 4 pi, <1, max> = pi,
+    /// <max, max> = 2 pi / 3; <E, max> = sum A_l^2 L_l(d), L_l(d) what band l of the radiance is along d.
+    [[nodiscard]] Fit at(Vec3 d) const {
+        const std::array<double, 3> w = {d.x, d.y, d.z};
+        Fit fit;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Degree2& light = channels_[k];
+            const double against = std::pow(harmonics::clamped_cosine(0), 2) * light.constant +
+                                   std::pow(harmonics::clamped_cosine(1), 2) * light.first(w) +
+                                   std::pow(harmonics::clamped_cosine(2), 2) * light.second(w);
+            const double whole = 4 * k_pi * k_pi * light.constant;
+            const double g11 = 4 * k_pi, g12 = k_pi, g22 = 2 * k_pi / 3, determinant = g11 * g22 - g12 * g12;
+            double e = (g22 * whole - g12 * against) / determinant;  // pi a
+            double h = (g11 * against - g12 * whole) / determinant;
+            if (h < 0) {
+                h = 0;
+                e = std::max(0.0, whole / g11);
+            } else if (e < 0) {
+                e = 0;
+                h = std::max(0.0, against / g22);
+            }
+            fit.ambient[k] = e / k_pi;
+            fit.highlight[k] = h;
+            fit.saved += e * whole + h * against;
+        }
+        return fit;
+    }
+
+  private:
+    std::array<Degree2, 3> channels_;
+};
+
+/// The direction of the largest saving near `d`: steps along a shrinking cross on the sphere.
+Vec3 searched(const Target& target, Vec3 d) {
+    double saved = target.at(d).saved;
+    for (float step = 0.4f; step > 1e-4f;) {
+        const Vec3 u = normalize(cross(std::abs(d.z) < 0.9f ? Vec3{0, 0, 1} : Vec3{1, 0, 0}, d)), v = cross(d, u);
+        Vec3 best = d;
+        for (const Vec3 side : {u, v, u * -1.0f, v * -1.0f}) {
+            const Vec3 next = normalize(d + side * step);
+            const double gained = target.at(next).saved;
+            if (gained > saved) {
+                saved = gained;
+                best = next;
+            }
+        }
+        if (best == d) step /= 2;
+        d = best;
+    }
+    return d;
+}
+
+class Punctual final : public Evaluator {
+  public:
+    [[nodiscard]] std::string name() const override { return "punctual"; }
+    [[nodiscard]] Accuracy accuracy() const override {
+        return {"everywhere", "no error: it is what the coefficients mean", Reading::of_its_own, 1e-5};
+    }
+    void signed_irradiance(std::span<const Rgb> c, DirectionView normals, MutableColourView out) const override {
+        HWY_DYNAMIC_DISPATCH(HighlightRows)
+        (c[0] * static_cast<float>(k_pi), c[1], {c[2].r, c[2].g, c[2].b}, 0, normals, out);
+    }
+};
+
+}  // namespace
+
+Result<std::shared_ptr<const Basis>> AmbientHighlight::from_name(std::string_view name) {
+    if (name != "ahd") return std::shared_ptr<const Basis>();
+    return std::shared_ptr<const Basis>(std::make_shared<AmbientHighlight>());
+}
+
+std::shared_ptr<const LinearBasis> AmbientHighlight::accumulated() const {
+    return std::make_shared<SphericalHarmonics>(2);
+}
+
+void AmbientHighlight::fit(std::span<const Rgb> accumulated, std::span<Rgb> c) const {
+    std::fill(c.begin(), c.end(), Rgb{});
+    const Vec3 towards{luminance(accumulated[3]), luminance(accumulated[1]), luminance(accumulated[2])};
+    const Target target(accumulated);
+    const Vec3 d = searched(target, length(towards) > 1e-20f ? normalize(towards) : Vec3{0, 0, 1});
+    const Target::Fit best = target.at(d);
+    const auto colour = [](const std::array<double, 3>& v) {
+        return Rgb{static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
+    };
+    c[0] = colour(best.ambient);
+    c[1] = colour(best.highlight);
+    if (best.saved > 0) c[2] = {d.x, d.y, d.z};
+}
+
+void AmbientHighlight::radiance(std::span<const Rgb> c, DirectionView directions, MutableColourView out) const {
+    HWY_DYNAMIC_DISPATCH(HighlightRows)
+    (c[0], c[1] * k_lobe_factor, {c[2].r, c[2].g, c[2].b}, k_squarings, directions, out);
+}
+
+std::string AmbientHighlight::description() const { return "ambient light and one directional light"; }
+
+BasisNotes AmbientHighlight::notes() const {
+    return {"Ambient and highlight direction",
+            "E(n) = pi A + H max(0, n . d); as radiance, A + 9/2pi H max(0, w . d)^8",
+            "one dominant light; highlights of glossy surfaces, for which it has a direction and a colour; 9 floats",
+            "two lights; soft light from one side; filtering, where neighbours' directions differ"};
+}
+
+std::shared_ptr<const Evaluator> AmbientHighlight::evaluator(std::string_view name) const {
+    return name == "punctual" ? std::make_shared<Punctual>() : nullptr;
+}
+
+Basis::Rotated AmbientHighlight::rotated(const Rotation& r, std::span<const Rgb> c) const {
+    const Vec3 d = rotate(r, {c[2].r, c[2].g, c[2].b});
+    return {std::make_shared<AmbientHighlight>(), {c[0], c[1], {d.x, d.y, d.z}}};
+}
+
+}  // namespace lobelia
+#endif
