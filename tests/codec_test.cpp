@@ -40,6 +40,9 @@ const EncoderPtr& encoder_of(const BasisPtr& basis, const std::string& name) {
     return encoder;
 }
 
+/// Whether equal but for rounding means equal coefficients: not where lobes are searched for.
+bool is_continuous(const Basis& basis) { return !basis.fitted() || basis.fitted()->is_continuous(); }
+
 /// Every encoder that suits every basis.
 void for_each_encoder(const ForEncoder& visit) {
     for (const BasisPtr& basis : bases())
@@ -69,9 +72,10 @@ Colours irradiance_of(const Evaluator& evaluator, std::span<const Rgb> c, const 
 
 /// The coefficients of least squares over the samples, by QR where there are not too many.
 std::vector<Rgb> best_fit(const BasisPtr& basis, SampleView samples) {
-    const LinearBasis& linear = basis->linear() ? *basis->linear() : *basis->fitted()->accumulated();
-    if (linear.size() > 100) return encode(encoder_of(basis, "least-squares"), samples);
-    const auto best = least_squares_by_qr(linear, samples);
+    const auto linear = basis->linear() ? as_linear(basis) : basis->fitted()->accumulated();
+    if (linear->size() > 300) return encode(encoder_of(basis, encoder_names(*basis).front()), samples);
+    if (linear->size() > 100) return encode(encoder_of(basis, "least-squares"), samples);
+    const auto best = least_squares_by_qr(*linear, samples);
     if (basis->linear()) return best;
     std::vector<Rgb> c(basis->size());
     basis->fitted()->fit(best, c);
@@ -219,10 +223,14 @@ void expect_environment(const LinearEnvironment& environment) {
             const double allowed = bias(name, *basis);
             const Colours radiance = radiance_of(*basis, c, directions);
             EXPECT_LE(rms_of_radiance(radiance, environment, directions), best_rms + allowed);
+            // Channels do not mix; where a fitted basis shares something among them, by little more than it is off.
+            double mixing = 0, from_nothing = 0;
             for (std::size_t i = 0; i < directions.size(); ++i) {
-                EXPECT_NEAR(radiance.channel(0)[i], radiance.channel(1)[i] / 2, 1e-4);
-                EXPECT_NEAR(radiance.channel(2)[i], 0, 1e-6);
+                mixing = std::max(mixing, std::abs(radiance.channel(0)[i] - radiance.channel(1)[i] / 2.0));
+                from_nothing = std::max(from_nothing, std::abs(static_cast<double>(radiance.channel(2)[i])));
             }
+            EXPECT_LE(mixing, basis->linear() ? 1e-4 : 1e-4 + 20 * (best_rms + allowed));
+            EXPECT_LE(from_nothing, basis->linear() ? 1e-6 : 1e-4 + 20 * (best_rms + allowed));
 
             // Irradiance, of all evaluators: what the best coefficients give, the bias, and what the evaluator states.
             // An irradiance over pi is a mean of radiances, and so no further off than a half more than their RMS.
@@ -335,6 +343,7 @@ TEST(EveryCodec, RotationEquivariance) {
 
 TEST(EveryCodec, MergeEqualsSequential) {
     for_each_encoder([](const BasisPtr& basis, const std::string& name, const EncoderPtr& encoder) {
+        if (!is_continuous(*basis)) return;
         const Samples samples = sky_samples(basis->domain(), 4096);
         const auto whole = encode(encoder, samples);
         const auto merged = [&](std::vector<std::size_t> cuts) {
@@ -379,6 +388,7 @@ TEST(EveryCodec, MergingWithNothingChangesNothing) {
 
 TEST(EveryCodec, PiecesOfAnySizeEqualOneBatch) {
     for_each_encoder([](const BasisPtr& basis, const std::string&, const EncoderPtr& encoder) {
+        if (!is_continuous(*basis)) return;
         const Samples samples = sky_samples(basis->domain(), 700);
         const auto expected = encode(encoder, samples);
         for (const auto& sizes :
@@ -399,6 +409,7 @@ TEST(EveryCodec, PiecesOfAnySizeEqualOneBatch) {
 
 TEST(EveryCodec, ACommonFactorInSolidAnglesIsHarmless) {
     for_each_encoder([](const BasisPtr& basis, const std::string&, const EncoderPtr& encoder) {
+        if (!is_continuous(*basis)) return;
         const Samples samples = sky_samples(basis->domain(), 1000);
         const auto expected = encode(encoder, samples);
         for (const float factor : {0.001f, 8.0f, 12345.6f}) {
@@ -425,7 +436,8 @@ TEST(EveryCodec, AFactorInRadianceIsAFactorInCoefficients) {
                 scaled.set(i, s);
             }
             auto found = encode(encoder, scaled);
-            for (Rgb& v : found) v = v * (1 / factor);
+            for (std::size_t i = 0; i < found.size(); ++i)
+                if (basis->meanings()[i] == Meaning::light) found[i] = found[i] * (1 / factor);
             EXPECT_LE(excess(*basis, found, expected), 1e-5) << factor;
         }
     });

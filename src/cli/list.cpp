@@ -3,6 +3,7 @@
 
 #include "cli/verbs.h"
 #include "lobelia/codec.h"
+#include "report/bases_page.h"
 
 namespace lobelia::cli {
 namespace {
@@ -30,15 +31,23 @@ void print_axes() {
                all_codecs().size());
 }
 
+struct Options {
+    bool axes = false, markdown = false;
+};
+
 }  // namespace
 
 Verb add_list(CLI::App& app) {
     CLI::App* command = app.add_subcommand("list", "Print the codecs, or what they are made of");
-    auto axes = std::make_shared<bool>(false);
-    command->add_flag("--axes", *axes, "The bases, encoders and evaluators with what they are, instead");
-    return {command, [axes]() -> Status {
-                if (*axes)
+    auto options = std::make_shared<Options>();
+    CLI::Option* axes =
+        command->add_flag("--axes", options->axes, "The bases, encoders and evaluators with what they are, instead");
+    command->add_flag("--markdown", options->markdown, "The page of bases, docs/bases.md, instead")->excludes(axes);
+    return {command, [options]() -> Status {
+                if (options->axes)
                     print_axes();
+                else if (options->markdown)
+                    fmt::print("{}", bases_markdown());
                 else
                     for (const auto& codec : all_codecs()) fmt::print("{}\n", codec.str());
                 return Done{};

@@ -85,6 +85,8 @@ class FittedBasis : public Basis {
     [[nodiscard]] virtual std::shared_ptr<const LinearBasis> accumulated() const = 0;
     /// Coefficients `c` of this basis from coefficients of the accumulated one. No samples, all 0, gives all 0.
     virtual void fit(std::span<const Rgb> accumulated, std::span<Rgb> c) const = 0;
+    /// Whether nearly the same input gives nearly the same coefficients; a search may end in another minimum.
+    [[nodiscard]] virtual bool is_continuous() const { return true; }
     /// Fits cost time, and encoders differ little after one.
     [[nodiscard]] std::vector<std::string> listed_encoders() const override { return {"moments", "least-squares"}; }
 };

@@ -155,6 +155,19 @@ void AddGram(const float* rows, std::size_t count, SampleView block, float* sums
     }
 }
 
+void AddWeightedDirections(const float* row, SampleView block, float* sums) {
+    const D d;
+    V sum[4] = {hn::Zero(d), hn::Zero(d), hn::Zero(d), hn::Zero(d)};
+    for (std::size_t j = 0; j < block.size; j += hn::Lanes(d)) {
+        const V omega = before(d, hn::LoadU(d, block.solid_angles() + j), j, block.size);
+        const V w = hn::Mul(omega, before(d, hn::LoadU(d, row + j), j, block.size));
+        for (std::size_t k = 0; k < 3; ++k)
+            sum[k] = hn::MulAdd(w, before(d, hn::LoadU(d, block.directions().channel(k) + j), j, block.size), sum[k]);
+        sum[3] = hn::Add(sum[3], w);
+    }
+    for (std::size_t k = 0; k < 4; ++k) sums[k] += reduce(d, sum[k]);
+}
+
 void Combine(const float* rows, std::size_t count, std::span<const Rgb> c, MutableColourView out) {
     const D d;
     for (std::size_t j = 0; j < out.size; j += hn::Lanes(d)) {
@@ -254,6 +267,7 @@ HWY_EXPORT(IrradianceSum);
 HWY_EXPORT(IrradianceSums);
 HWY_EXPORT(AddMoments);
 HWY_EXPORT(AddGram);
+HWY_EXPORT(AddWeightedDirections);
 HWY_EXPORT(Combine);
 HWY_EXPORT(TransformRows);
 HWY_EXPORT(RunningAverage);
@@ -271,6 +285,11 @@ float add_moments(const float* rows, std::size_t count, SampleView block, float*
 }
 void add_gram(const float* rows, std::size_t count, SampleView block, float* sums) {
     HWY_DYNAMIC_DISPATCH(AddGram)(rows, count, block, sums);
+}
+WeightedDirections weighted_directions(const float* row, SampleView block) {
+    float sums[4] = {};
+    HWY_DYNAMIC_DISPATCH(AddWeightedDirections)(row, block, sums);
+    return {{sums[0], sums[1], sums[2]}, sums[3]};
 }
 void combine(const float* rows, std::size_t count, std::span<const Rgb> c, MutableColourView out) {
     HWY_DYNAMIC_DISPATCH(Combine)(rows, count, c, out);

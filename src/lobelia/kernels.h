@@ -27,6 +27,13 @@ void combine(const float* rows, std::size_t count, std::span<const Rgb> c, Mutab
 /// to_i = sum_k matrix[i * count + k] row_k, for whole rows of `size` entries rounded up to lanes.
 void transform_rows(const float* rows, std::size_t count, const float* matrix, std::size_t size, float* to);
 
+/// sum_j omega_j row[j] d_j, and sum_j omega_j row[j].
+struct WeightedDirections {
+    Vec3 first;
+    float sum = 0;
+};
+WeightedDirections weighted_directions(const float* row, SampleView block);
+
 /// One pass of a sequential encoder over a block, lanes running over the lobes. All arrays over lobes have `lanes`
 /// entries, a multiple of k_lanes; sample j's function values are values[j * lanes ..], zero past the last lobe.
 struct Sequential {

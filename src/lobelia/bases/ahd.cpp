@@ -44,6 +44,11 @@ namespace {
 constexpr int k_squarings = 3;
 const auto k_lobe_factor = static_cast<float>((8 + 1) / (2 * k_pi));
 
+using Direction = std::array<double, 3>;
+
+/// A_0^2 + 3 A_1^2 + 5 A_2^2 over 4 pi; with all bands it is 2 pi / 3, 0.8 % more.
+const double k_squared_cosine = k_pi / 4 + k_pi / 3 + 5 * k_pi / 64;
+
 /// The light as the fit sees it: E over all normals against 1 and against max(0, n . d), up to degree 2.
 class Target {
   public:
@@ -53,10 +58,10 @@ class Target {
         std::array<double, 3> ambient{}, highlight{};
         double saved = 0;  ///< squared error that it saves against nothing at all
     };
-    /// The best non-negative a and H of E = pi a + H max(0, n . d). Over all normals <1, 1> = 4 pi, <1, max> = pi,
-    /// <max, max> = 2 pi / 3; <E, max> = sum A_l^2 L_l(d), L_l(d) what band l of the radiance is along d.
-    [[nodiscard]] Fit at(Vec3 d) const {
-        const std::array<double, 3> w = {d.x, d.y, d.z};
+    /// The best non-negative a and H of E = pi a + H max(0, n . d), both sides taken up to degree 2, so that such a
+    /// light is found exactly. Over all normals <1, 1> = 4 pi, <1, max> = pi, <max, max> = sum A_l^2 (2l + 1) / 4 pi;
+    /// <E, max> = sum A_l^2 L_l(d), L_l(d) what band l of the radiance is along d.
+    [[nodiscard]] Fit at(const Direction& w) const {
         Fit fit;
         for (std::size_t k = 0; k < 3; ++k) {
             const Degree2& light = channels_[k];
@@ -64,7 +69,7 @@ class Target {
                                    std::pow(harmonics::clamped_cosine(1), 2) * light.first(w) +
                                    std::pow(harmonics::clamped_cosine(2), 2) * light.second(w);
             const double whole = 4 * k_pi * k_pi * light.constant;
-            const double g11 = 4 * k_pi, g12 = k_pi, g22 = 2 * k_pi / 3, determinant = g11 * g22 - g12 * g12;
+            const double g11 = 4 * k_pi, g12 = k_pi, g22 = k_squared_cosine, determinant = g11 * g22 - g12 * g12;
             double e = (g22 * whole - g12 * against) / determinant;  // pi a
             double h = (g11 * against - g12 * whole) / determinant;
             if (h < 0) {
@@ -85,14 +90,26 @@ class Target {
     std::array<Degree2, 3> channels_;
 };
 
-/// The direction of the largest saving near `d`: steps along a shrinking cross on the sphere.
-Vec3 searched(const Target& target, Vec3 d) {
+Direction unit(const Direction& v) {
+    const double length = std::hypot(v[0], v[1], v[2]);
+    return {v[0] / length, v[1] / length, v[2] / length};
+}
+Direction across(const Direction& a, const Direction& b) {
+    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+/// The direction of the largest saving near `d`: steps along a shrinking cross on the sphere, in double precision, for
+/// near the top there is little to tell directions by.
+Direction searched(const Target& target, Direction d) {
     double saved = target.at(d).saved;
-    for (float step = 0.4f; step > 1e-4f;) {
-        const Vec3 u = normalize(cross(std::abs(d.z) < 0.9f ? Vec3{0, 0, 1} : Vec3{1, 0, 0}, d)), v = cross(d, u);
-        Vec3 best = d;
-        for (const Vec3 side : {u, v, u * -1.0f, v * -1.0f}) {
-            const Vec3 next = normalize(d + side * step);
+    for (double step = 0.4; step > 1e-6;) {
+        const Direction u = unit(across(std::abs(d[2]) < 0.9 ? Direction{0, 0, 1} : Direction{1, 0, 0}, d));
+        const Direction v = across(d, u);
+        Direction best = d;
+        for (const auto& [along, across_it] : {std::pair{step, 0.0}, {0.0, step}, {-step, 0.0}, {0.0, -step}}) {
+            Direction next;
+            for (std::size_t i = 0; i < 3; ++i) next[i] = d[i] + along * u[i] + across_it * v[i];
+            next = unit(next);
             const double gained = target.at(next).saved;
             if (gained > saved) {
                 saved = gained;
@@ -132,14 +149,15 @@ void AmbientHighlight::fit(std::span<const Rgb> accumulated, std::span<Rgb> c) c
     std::fill(c.begin(), c.end(), Rgb{});
     const Vec3 towards{luminance(accumulated[3]), luminance(accumulated[1]), luminance(accumulated[2])};
     const Target target(accumulated);
-    const Vec3 d = searched(target, length(towards) > 1e-20f ? normalize(towards) : Vec3{0, 0, 1});
+    const Direction d =
+        searched(target, length(towards) > 1e-20f ? unit({towards.x, towards.y, towards.z}) : Direction{0, 0, 1});
     const Target::Fit best = target.at(d);
-    const auto colour = [](const std::array<double, 3>& v) {
+    const auto colour = [](const Direction& v) {
         return Rgb{static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
     };
     c[0] = colour(best.ambient);
     c[1] = colour(best.highlight);
-    if (best.saved > 0) c[2] = {d.x, d.y, d.z};
+    if (best.saved > 0) c[2] = colour(d);
 }
 
 void AmbientHighlight::radiance(std::span<const Rgb> c, DirectionView directions, MutableColourView out) const {

@@ -43,15 +43,30 @@ LinearIrradiance constrained(const Moments& m) {
     return {at_normal - up, {m[2] / (2 * k_pi / 3), m[3] / (2 * k_pi / 3), up}};
 }
 
-/// The slope over the constant, no longer than 1, so that E is nowhere negative.
+/// The nearest E that has the same value at the surface's normal and is nowhere negative, |e| <= e0: with e0 = E(z) -
+/// e_z that is e_z <= (E(z)^2 - r^2) / 2 E(z), r^2 = e_x^2 + e_y^2, a paraboloid, and near means near in e.
+LinearIrradiance non_negative(const LinearIrradiance& e) {
+    const double at_normal = e.constant + e.slope[2], r = std::hypot(e.slope[0], e.slope[1]);
+    if (!(at_normal > 0)) return {};
+    const auto height = [&](double radius) { return (at_normal * at_normal - radius * radius) / (2 * at_normal); };
+    if (e.slope[2] <= height(r)) return e;
+    // The foot of the perpendicular, by bisection.
+    double low = 0, high = r;
+    for (int i = 0; i < 60; ++i) {
+        const double middle = (low + high) / 2;
+        const bool beyond = middle - r - (height(middle) - e.slope[2]) * middle / at_normal > 0;
+        (beyond ? high : low) = middle;
+    }
+    const double shrink = r > 0 ? low / r : 0, up = height(low);
+    return {at_normal - up, {e.slope[0] * shrink, e.slope[1] * shrink, up}};
+}
+
+/// The slope of that over its constant.
 std::array<double, 3> directionality(const LinearIrradiance& e) {
-    double squared = 0;
-    for (double s : e.slope) squared += s * s;
-    const double length = std::sqrt(squared);
-    const double divisor = std::max(e.constant, length);
+    const LinearIrradiance bright = non_negative(e);
     std::array<double, 3> d{};
-    if (divisor > 0)
-        for (std::size_t i = 0; i < 3; ++i) d[i] = e.slope[i] / divisor;
+    if (bright.constant > 0)
+        for (std::size_t i = 0; i < 3; ++i) d[i] = bright.slope[i] / bright.constant;
     return d;
 }
 
@@ -182,7 +197,7 @@ std::array<LinearIrradiance, 3> DirectionalLightmap::irradiance(std::span<const 
             const auto d = [&](std::size_t i) {
                 return kind_ == Kind::enlighten ? channel_of(c[1], i) : channel_of(c[1 + i], k);
             };
-            e[k].constant = channel_of(c[0], k) / std::max(1e-4, 1 + d(2));
+            e[k].constant = channel_of(c[0], k) / std::max(1e-4, 1.0 + d(2));
             for (std::size_t i = 0; i < 3; ++i) e[k].slope[i] = e[k].constant * d(i);
         }
     }

@@ -11,9 +11,6 @@ namespace lobelia {
 /// the lobes in order of their light. 6 N floats.
 class FittedGaussians final : public FittedBasis {
   public:
-    /// Resolution of the texels that lobes are fitted from.
-    static constexpr std::size_t k_resolution = 16;
-
     FittedGaussians(std::size_t count, std::shared_ptr<const OctahedralTexels> texels)
         : count_(count), texels_(std::move(texels)) {}
     /// sgfit<N>, N 1 to 12. Null if the name is of another family.
@@ -24,6 +21,7 @@ class FittedGaussians final : public FittedBasis {
     void radiance(std::span<const Rgb> c, DirectionView directions, MutableColourView out) const override;
     [[nodiscard]] std::shared_ptr<const LinearBasis> accumulated() const override { return texels_; }
     void fit(std::span<const Rgb> accumulated, std::span<Rgb> c) const override;
+    [[nodiscard]] bool is_continuous() const override { return false; }
     /// Texels need no Gram matrix.
     [[nodiscard]] std::vector<std::string> listed_encoders() const override { return {"moments"}; }
     [[nodiscard]] std::string name() const override { return "sgfit" + std::to_string(count_); }

@@ -117,12 +117,12 @@ double readable(double along, double mean) {
     return std::abs(along) >= least ? along : along < 0 ? -least : least;
 }
 
-/// Vectors (rows: channels) whose luminance is along `a`, the nearest to the given ones.
-Matrix3d with_axis(const Matrix3d& vectors, const Vector3d& a, double mean) {
+/// Vectors (rows: channels) whose luminance is along `a`, the nearest to the given ones; `weights` are the channels'
+/// parts in the luminance, 0 for those that have no light to move.
+Matrix3d with_axis(const Matrix3d& vectors, const Vector3d& a, double mean, const Vector3d& weights) {
     const Vector3d luminance = vectors.transpose() * k_luminance;
-    const double along = luminance.dot(a);
-    const Vector3d change = a * readable(along, mean) - luminance;
-    return vectors + k_luminance * change.transpose() / k_luminance.squaredNorm();
+    const Vector3d change = a * readable(luminance.dot(a), mean) - luminance;
+    return vectors + weights * change.transpose() / std::max(weights.squaredNorm(), 1e-300);
 }
 
 std::array<Vector3d, 3> axes_of(std::span<const Rgb> c, Zh3::Axis axis) {
@@ -196,10 +196,15 @@ void Zh3::fit(std::span<const Rgb> accumulated, std::span<Rgb> c) const {
     };
     if (axis_ == Axis::shared) {
         const Vector3d luminance = vectors.transpose() * k_luminance;
-        Gain gain{k_vector_weight / k_luminance.squaredNorm() * luminance * luminance.transpose(), {}, k_form_weight};
+        Vector3d weights = k_luminance;
+        for (Eigen::Index k = 0; k < 3; ++k)
+            if (!(means[k] > 0)) weights(k) = 0;
+        Gain gain{k_vector_weight / std::max(weights.squaredNorm(), 1e-300) * luminance * luminance.transpose(),
+                  {},
+                  k_form_weight};
         for (std::size_t k = 0; k < 3; ++k) gain.forms.push_back(form_of(accumulated, k));
         const Vector3d a = best_axis(gain, luminance);
-        found = with_axis(vectors, a, k_luminance.dot(Vector3d(means[0], means[1], means[2])));
+        found = with_axis(vectors, a, k_luminance.dot(Vector3d(means[0], means[1], means[2])), weights);
         for (std::size_t k = 0; k < 3; ++k) z(static_cast<Eigen::Index>(k)) = zonal_part(k, a);
     } else {
         for (std::size_t k = 0; k < 3; ++k) {

@@ -1,0 +1,12 @@
+// docs/bases.md: every listed basis, written from what the bases say of themselves.
+#pragma once
+
+#include <string>
+
+namespace lobelia {
+
+/// The page as Markdown: a table of all, then a section for each family with formula, sizes, evaluators and their
+/// stated errors, what it is good at and bad at.
+[[nodiscard]] std::string bases_markdown();
+
+}  // namespace lobelia
