@@ -99,6 +99,13 @@ class Basis : public FunctionSet {
     };
     /// For the hemisphere, `r` turns about z.
     [[nodiscard]] virtual Rotated rotated(const Rotation& r, std::span<const Rgb> c) const = 0;
+
+    // What a storage may make use of.
+    /// Whether each coefficient is a colour, so that its chroma may be kept more coarsely than its luma.
+    [[nodiscard]] virtual bool has_colours() const { return true; }
+    /// Bounds b_i with |c_i| <= b_i c_0, channel by channel, for the coefficients of any light that is >= 0; empty
+    /// where the first coefficient bounds nothing. b_0 = 1.
+    [[nodiscard]] virtual std::vector<float> lead_bounds() const { return {}; }
 };
 
 }  // namespace lobelia

@@ -50,6 +50,12 @@
 #include "lobelia/encode/moments.h"
 #include "lobelia/encode/sequential.h"
 
+// Coefficients in fewer bytes.
+#include "lobelia/half.h"
+#include "lobelia/pack/pixel_format.h"
+#include "lobelia/pack/texture_layout.h"
+#include "lobelia/pack.h"
+
 // All of these by name, and how good they were.
 #include "lobelia/codec.h"
 #include "lobelia/metrics.h"

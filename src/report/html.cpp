@@ -1,7 +1,6 @@
 // The report as a page; pictures as half floats.
 #include "report/html.h"
 
-#include <bit>
 #include <cassert>
 #include <nlohmann/json.hpp>
 #include <string_view>
@@ -82,29 +81,6 @@ std::size_t bytes_of(const PictureSet& set) {
 }
 
 }  // namespace
-
-std::uint16_t half_from_float(float value) {
-    const auto bits = std::bit_cast<std::uint32_t>(value);
-    const std::uint32_t sign = bits >> 16 & 0x8000, magnitude = bits & 0x7fffffff;
-    constexpr std::uint32_t infinity = 0x7f800000, largest = 0x477fe000 /* 65504 */,
-                            least_normal = 0x38800000 /* 2^-14 */;
-    std::uint32_t half = 0;
-    if (magnitude > infinity) {
-        half = 0x7e00;
-    } else if (magnitude >= largest) {
-        half = 0x7bff;
-    } else if (magnitude >= least_normal) {
-        // Rebias the exponent from 127 to 15, and round the 13 bits that go; a carry moves into the exponent as it
-        // should.
-        const std::uint32_t rebiased = magnitude - ((127 - 15) << 23);
-        half = (rebiased + 0xfff + (rebiased >> 13 & 1)) >> 13;
-    } else {
-        // Add 1/2, whose last mantissa bit weighs 2^-24, the least subnormal half: the addition itself rounds.
-        half =
-            std::bit_cast<std::uint32_t>(std::bit_cast<float>(magnitude) + 0.5f) - std::bit_cast<std::uint32_t>(0.5f);
-    }
-    return static_cast<std::uint16_t>(sign | half);
-}
 
 Picture encode_picture(std::span<const Rgb> pixels, std::size_t width, std::size_t height) {
     assert(pixels.size() == width * height);

@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 
+#include "lobelia/half.h"
 #include "lobelia/planes.h"
 
 namespace lobelia {
@@ -17,9 +18,6 @@ struct Picture {
     std::size_t height = 0;
     std::string base64_half;
 };
-
-/// `value` as IEEE 754 binary16, rounded to nearest, ties to even; magnitudes beyond 65504 become 65504, NaN stays NaN.
-[[nodiscard]] std::uint16_t half_from_float(float value);
 
 /// Encodes linear pixels, row by row from the top left. Precondition: as many pixels as `width` x `height`.
 [[nodiscard]] Picture encode_picture(std::span<const Rgb> pixels, std::size_t width, std::size_t height);

@@ -68,6 +68,13 @@ std::shared_ptr<const Evaluator> SphericalHarmonics::evaluator(std::string_view 
     return nullptr;
 }
 
+std::vector<float> SphericalHarmonics::lead_bounds() const {
+    std::vector<float> bounds;
+    for (std::size_t l = 0; l <= harmonics_.degree(); ++l)
+        bounds.insert(bounds.end(), 2 * l + 1, std::sqrt(static_cast<float>(2 * l + 1)));
+    return bounds;
+}
+
 Basis::Rotated SphericalHarmonics::rotated(const Rotation& r, std::span<const Rgb> c) const {
     return {std::make_shared<SphericalHarmonics>(harmonics_.degree()), harmonics::rotated(r, c)};
 }

@@ -29,6 +29,9 @@ class SphericalHarmonics final : public Basis {
     }
     [[nodiscard]] std::shared_ptr<const Evaluator> evaluator(std::string_view name) const override;
     [[nodiscard]] Rotated rotated(const Rotation& r, std::span<const Rgb> c) const override;
+    /// sqrt(2l + 1): by the addition theorem no Y_lm exceeds sqrt((2l + 1) / 4 pi), which Y_l0 reaches, and
+    /// c_0 = sqrt(1 / 4 pi) times the integral of L.
+    [[nodiscard]] std::vector<float> lead_bounds() const override;
 
   private:
     harmonics::Harmonics harmonics_;
