@@ -3,6 +3,7 @@
 
 #include "cli/verbs.h"
 #include "lobelia/codec.h"
+#include "lobelia/pack.h"
 
 namespace lobelia::cli {
 namespace {
@@ -26,6 +27,8 @@ void print_axes() {
             fmt::print("  {:<20} {}: error at most {}\n", evaluator, accuracy.range, accuracy.error);
         }
     }
+    fmt::print("storages\n");
+    for (const Storage& storage : storages()) fmt::print("  {:<20} {}\n", storage.name, storage.description);
     fmt::print("A codec is one of each, basis/encoder/evaluator; lobelia list prints all {} of the sensible product.\n",
                all_codecs().size());
 }
@@ -35,7 +38,7 @@ void print_axes() {
 Verb add_list(CLI::App& app) {
     CLI::App* command = app.add_subcommand("list", "Print the codecs, or what they are made of");
     auto axes = std::make_shared<bool>(false);
-    command->add_flag("--axes", *axes, "The bases, encoders and evaluators with what they are, instead");
+    command->add_flag("--axes", *axes, "The bases, encoders, evaluators and storages with what they are, instead");
     return {command, [axes]() -> Status {
                 if (*axes)
                     print_axes();
