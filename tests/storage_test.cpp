@@ -5,6 +5,7 @@
 #include <set>
 
 #include "lobelia/codec.h"
+#include "lobelia/pack/layout_text.h"
 #include "support.h"
 
 namespace lobelia {
@@ -219,6 +220,22 @@ TEST(Storages, WhatSuitsFollowsFromTheTraits) {
     EXPECT_FALSE(names({3, false, true, {}}).contains("bc6h"));
     EXPECT_TRUE(names({3, false, true, {1, 2, 2}}).contains("ratio8"));
     EXPECT_FALSE(names({3, true, true, {}}).contains("ratio8"));
+}
+
+TEST(Storages, LayoutsAsText) {
+    const TextureLayout layout = find_storage("ratio8").value()->layout({2, false, true, {1, 2}});
+    EXPECT_EQ(
+        layout_json(layout),
+        R"({"coefficients": 2, "textures": [{"name": "c0", "format": "rgb9e5", "vk_format": 123, "subsampling": 1, )"
+        R"("channels": [{"coefficient": 0, "component": "r", "form": "value", "scale": 1, "offset": 0}, )"
+        R"({"coefficient": 0, "component": "g", "form": "value", "scale": 1, "offset": 0}, )"
+        R"({"coefficient": 0, "component": "b", "form": "value", "scale": 1, "offset": 0}]}, )"
+        R"({"name": "ratio0", "format": "rgba8", "vk_format": 37, "subsampling": 1, )"
+        R"("channels": [{"coefficient": 1, "component": "r", "form": "ratio", "scale": 0.25, "offset": 0.5}, )"
+        R"({"coefficient": 1, "component": "g", "form": "ratio", "scale": 0.25, "offset": 0.5}, )"
+        R"({"coefficient": 1, "component": "b", "form": "ratio", "scale": 0.25, "offset": 0.5}]}]})");
+    EXPECT_EQ(channel_text(layout.textures[1].channels[0]), "0.5 + 0.25 c1.r / c0.r");
+    EXPECT_EQ(channel_text(layout.textures[0].channels[2]), "c0.b");
 }
 
 TEST(Storages, UnknownNamesAreErrors) {

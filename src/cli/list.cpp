@@ -4,9 +4,18 @@
 #include "cli/verbs.h"
 #include "lobelia/codec.h"
 #include "lobelia/pack.h"
+#include "lobelia/pack/layout_text.h"
 
 namespace lobelia::cli {
 namespace {
+
+enum class Output { text, json };
+
+struct Options {
+    bool axes = false;
+    std::string storages;
+    bool json = false;
+};
 
 void print_axes() {
     fmt::print("bases (one RGB coefficient per function)\n");
@@ -33,14 +42,59 @@ void print_axes() {
                all_codecs().size());
 }
 
+/// The traits of a codec's coefficients, or those that some encoder of a basis gives.
+Result<CoefficientTraits> traits_of(const std::string& name) {
+    if (name.find('/') != std::string::npos) {
+        const auto codec = make_codec(name);
+        if (!codec) return codec.error();
+        return coefficient_traits(*codec->encoder());
+    }
+    const auto basis = make_basis(name);
+    if (!basis) return basis.error();
+    return CoefficientTraits{(*basis)->size(), (*basis)->is_non_negative(), (*basis)->has_colours(),
+                             (*basis)->lead_bounds()};
+}
+
+void print_layout(const Storage& storage, const TextureLayout& layout) {
+    fmt::print("{:<14} {} bytes for a texel: {}\n", storage.name, bytes_per_texel(layout), storage.description);
+    for (const auto& texture : layout.textures) {
+        std::string channels;
+        for (const StoredChannel& channel : texture.channels)
+            channels += (channels.empty() ? "" : ", ") + channel_text(channel);
+        fmt::print("  {:<10} {:<14}{}{}\n", texture.name, info(texture.format).name, channels,
+                   texture.subsampling == 1 ? "" : ", for 2 x 2 texels");
+    }
+}
+
+Status print_layouts(const std::string& name, Output output) {
+    const auto traits = traits_of(name);
+    if (!traits) return traits.error();
+    std::string json;
+    for (const Storage& storage : storages()) {
+        if (!suits(storage, *traits)) continue;
+        const TextureLayout layout = storage.layout(*traits);
+        if (output == Output::text) print_layout(storage, layout);
+        json += fmt::format("{}\n \"{}\": {}", json.empty() ? "" : ",", storage.name, layout_json(layout));
+    }
+    if (output == Output::json) fmt::print("{{{}\n}}\n", json);
+    return Done{};
+}
+
 }  // namespace
 
 Verb add_list(CLI::App& app) {
     CLI::App* command = app.add_subcommand("list", "Print the codecs, or what they are made of");
-    auto axes = std::make_shared<bool>(false);
-    command->add_flag("--axes", *axes, "The bases, encoders, evaluators and storages with what they are, instead");
-    return {command, [axes]() -> Status {
-                if (*axes)
+    auto options = std::make_shared<Options>();
+    command->add_flag("--axes", options->axes,
+                      "The bases, encoders, evaluators and storages with what they are, instead");
+    auto* layouts = command->add_option("--storages", options->storages,
+                                        "The textures in which each storage that suits keeps the coefficients of this "
+                                        "basis or codec, instead");
+    command->add_flag("--json", options->json, "These as JSON")->needs(layouts);
+    return {command, [options]() -> Status {
+                if (!options->storages.empty())
+                    return print_layouts(options->storages, options->json ? Output::json : Output::text);
+                if (options->axes)
                     print_axes();
                 else
                     for (const auto& codec : all_codecs()) fmt::print("{}\n", codec.str());
