@@ -42,6 +42,7 @@
 #include "lobelia/harmonics.h"
 #include "lobelia/bases/gaussian.h"
 #include "lobelia/bases/sg_irradiance.h"
+#include "lobelia/bases/sh_baking.h"
 #include "lobelia/bases/spherical_gaussians.h"
 #include "lobelia/bases/spherical_harmonics.h"
 
