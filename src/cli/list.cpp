@@ -42,7 +42,7 @@ void print_axes() {
                all_codecs().size());
 }
 
-/// The traits of a codec's coefficients, or those that some encoder of a basis gives.
+/// The traits of a codec's coefficients; of a basis, those that its non-negative encoders give, where it has any.
 Result<CoefficientTraits> traits_of(const std::string& name) {
     if (name.find('/') != std::string::npos) {
         const auto codec = make_codec(name);
@@ -51,8 +51,12 @@ Result<CoefficientTraits> traits_of(const std::string& name) {
     }
     const auto basis = make_basis(name);
     if (!basis) return basis.error();
-    return CoefficientTraits{(*basis)->size(), (*basis)->is_non_negative(), (*basis)->has_colours(),
-                             (*basis)->lead_bounds()};
+    CoefficientTraits traits;
+    for (const auto& encoder : encoder_names(**basis)) {
+        traits = coefficient_traits(*make_encoder(encoder, *basis).value());
+        if (traits.non_negative) break;
+    }
+    return traits;
 }
 
 void print_layout(const Storage& storage, const TextureLayout& layout) {

@@ -19,6 +19,7 @@ struct Verb {
 };
 
 [[nodiscard]] Verb add_compare(CLI::App& app);
+[[nodiscard]] Verb add_convert(CLI::App& app);
 [[nodiscard]] Verb add_encode(CLI::App& app);
 [[nodiscard]] Verb add_eval(CLI::App& app);
 [[nodiscard]] Verb add_reference(CLI::App& app);

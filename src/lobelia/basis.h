@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -99,6 +100,10 @@ class Basis : public FunctionSet {
     };
     /// For the hemisphere, `r` turns about z.
     [[nodiscard]] virtual Rotated rotated(const Rotation& r, std::span<const Rgb> c) const = 0;
+
+    /// The degree of the spherical harmonics that the coefficients belong to, where they are such: orthonormal, real,
+    /// all-plus, from degree 0 on.
+    [[nodiscard]] virtual std::optional<std::size_t> harmonics_degree() const { return std::nullopt; }
 
     // What a storage may make use of.
     /// Whether each coefficient is a colour, so that its chroma may be kept more coarsely than its luma.

@@ -57,6 +57,9 @@
 #include "lobelia/pack/texture_layout.h"
 #include "lobelia/pack.h"
 
+// Coefficients as others write them.
+#include "lobelia/conventions/sh_conventions.h"
+
 // All of these by name, and how good they were.
 #include "lobelia/codec.h"
 #include "lobelia/metrics.h"

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "report/parse_json.h"
+
 namespace lobelia {
 namespace {
 
@@ -137,8 +139,10 @@ json to_json(const CoefficientFile& file) {
 }
 
 Result<CoefficientFile> coefficients_from_json(std::string_view text, const std::string& name) {
-    const json content = json::parse(text, nullptr, false);
-    if (content.is_discarded() || !content.is_object()) return Error{name + ": not a JSON object of coefficients"};
+    const auto parsed = parse_json(text, name);
+    if (!parsed) return parsed.error();
+    const json& content = *parsed;
+    if (!content.is_object()) return Error{name + ": not a JSON object of coefficients"};
     // By reference: copying what is nested a million deep would overflow the stack.
     const auto member = [&, none = json()](const char* key) -> const json& {
         return content.contains(key) ? content[key] : none;
@@ -149,7 +153,7 @@ Result<CoefficientFile> coefficients_from_json(std::string_view text, const std:
         return Error{name + ": no \"lobelia_coefficients\" version in it; is it from `lobelia encode`?"};
     if (format.get<long long>() != k_coefficient_format)
         return Error{name + ": version " + format.dump() + ", but this program reads version " +
-                     std::to_string(k_coefficient_format)};
+                     std::to_string(k_coefficient_format) + "; write it again with `lobelia encode`"};
     if (!member("codec").is_string()) return Error{name + ": no \"codec\" in it"};
     const auto codec = make_codec(member("codec").get<std::string>());
     if (!codec) return Error{name + ": " + codec.error().message};

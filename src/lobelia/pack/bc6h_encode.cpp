@@ -1,88 +1,20 @@
-// Encodes BC6H, lanes running over the texels of a block, or over its partitions.
+// Encodes BC6H, lanes running over the texels of a block.
 //
 // A block is fitted by a line in each region, found as the principal axis and improved by least squares, in the space
 // in which decoders interpolate: the bits of halves taken as numbers. Errors are those of square roots, between the
 // error of values, which ignores the dark, and that of their logarithms, which ignores the bright. Channels are weighed
 // by the square root of their mean magnitude, as derivatives of square roots ask for.
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 
 #include "lobelia/half.h"
-#include "lobelia/pack/bc6h_write.h"
+#include "lobelia/pack/bc6h_block.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "lobelia/pack/bc6h_encode.cpp"
 #include <hwy/foreach_target.h>  // NOLINT: must precede highway.h
 #include <hwy/highway.h>
-
-#ifndef LOBELIA_BC6H_TABLES
-#define LOBELIA_BC6H_TABLES
-namespace lobelia::bc6h {
-
-/// Partitions as rows of floats: member[texel][partition] is 1 in the second region.
-struct PartitionTable {
-    alignas(64) float member[k_texels][k_partitions] = {};
-    alignas(64) float mask[k_partitions][k_texels] = {};  ///< the same, texels side by side
-    constexpr PartitionTable() {
-        for (std::size_t p = 0; p < k_partitions; ++p)
-            for (std::size_t i = 0; i < k_texels; ++i)
-                if (k_second_region[p] >> i & 1) member[i][p] = mask[p][i] = 1;
-    }
-};
-inline constexpr PartitionTable k_partition_table;
-
-/// Shares of the second endpoint: 16 entries, or 8 for each region.
-struct WeightTable {
-    alignas(64) std::int32_t of[2][k_texels] = {};
-    constexpr WeightTable() {
-        for (std::size_t i = 0; i < 16; ++i) of[0][i] = k_weights4[i];
-        for (std::size_t i = 0; i < 16; ++i) of[1][i] = k_weights3[i % 8];
-    }
-};
-inline constexpr WeightTable k_weight_table;
-
-/// Sums over texels that a line follows from: their number, sums of the channels and of their products.
-enum Moment { count, sum_r, sum_g, sum_b, rr, rg, rb, gg, gb, bb, moments };
-/// Sums that least squares follow from, five for each channel: w a a, w a b, w b b, w a x, w b x.
-constexpr std::size_t k_sums = 5;
-
-/// What an index stands for in those sums: rows of a a, a b, b b, a, b, three times over.
-struct ShareTable {
-    alignas(64) float of[2][k_texels][k_texels] = {};
-    constexpr ShareTable() {
-        for (std::size_t kind = 0; kind < 2; ++kind)
-            for (std::size_t i = 0; i < 16; ++i) {
-                const float b = static_cast<float>(kind == 0 ? k_weights4[i] : k_weights3[i % 8]) / 64, a = 1 - b;
-                const float shares[k_sums] = {a * a, a * b, b * b, a, b};
-                for (std::size_t k = 0; k < 3 * k_sums; ++k) of[kind][i][k] = shares[k % k_sums];
-            }
-    }
-};
-inline constexpr ShareTable k_share_table;
-
-/// A block's texels. `wide` is where decoders interpolate, `root` where errors are measured.
-struct Texels {
-    alignas(64) float wide[3][k_texels];
-    alignas(64) float root[3][k_texels];
-    alignas(64) float scaled[3][k_texels];          ///< wide, from the middle, times the channel's weight
-    alignas(64) float moments[k_texels][k_texels];  ///< a row for each texel, of its parts of the moments
-    alignas(64) float sums[k_texels][k_texels];     ///< and of w, w, w, w x, w x for each channel, w its magnitude
-    float channel_weight[3], middle[3];
-    float low[3], high[3];  ///< range of wide
-};
-
-/// A candidate: endpoints, the indices that suit them best, and the squared error that remains.
-struct Candidate {
-    Quantised endpoints;
-    std::size_t partition = 0;
-    std::array<std::uint8_t, k_texels> indices{};
-    float error = std::numeric_limits<float>::max();
-};
-
-}  // namespace lobelia::bc6h
-#endif
 
 HWY_BEFORE_NAMESPACE();
 namespace lobelia::bc6h::HWY_NAMESPACE {
@@ -125,14 +57,15 @@ HWY_INLINE V root_of_half(VI bits, VI signed_value) {
 HWY_INLINE void fill_rows(Texels& t, float floor) {
     for (std::size_t i = 0; i < k_texels; ++i) {
         const float r = t.scaled[0][i], g = t.scaled[1][i], b = t.scaled[2][i];
-        const float row[moments] = {1, r, g, b, r * r, r * g, r * b, g * g, g * b, b * b};
-        std::copy_n(row, std::size_t{moments}, t.moments[i]);
+        const float row[k_texels] = {1, r, g, b, r * r, r * g, r * b, g * g, g * b, b * b};
+        std::copy_n(row, k_texels, t.moments[i]);
         float* sums = t.sums[i];
         for (std::size_t c = 0; c < 3; ++c, sums += k_sums) {
             const float w = t.root[c][i] * t.root[c][i] + floor, wx = w * t.wide[c][i];
             sums[0] = sums[1] = sums[2] = w;
             sums[3] = sums[4] = wx;
         }
+        *sums = 0;
     }
 }
 
@@ -146,7 +79,8 @@ void load_texels(const float* const* channels, std::size_t stride, Texels& t) {
         V total = hn::Zero(d), low = hn::Set(d, 1e9f), high = hn::Set(d, -1e9f);
         for (std::size_t i = 0; i < k_texels; i += hn::Lanes(d)) {
             const V lowest = sign == Sign::signed_halves ? hn::Set(d, -k_largest_half) : hn::Zero(d);
-            const V v = hn::Min(hn::Max(load(values + i), lowest), hn::Set(d, k_largest_half));
+            const V number = hn::IfThenElseZero(hn::Eq(load(values + i), load(values + i)), load(values + i));
+            const V v = hn::Min(hn::Max(number, lowest), hn::Set(d, k_largest_half));
             const V magnitude = hn::Abs(v);
             const VI half = half_bits(magnitude);
             // The least number that decoders scale to this half.
@@ -177,10 +111,10 @@ void load_texels(const float* const* channels, std::size_t stride, Texels& t) {
 
 /// The principal axis of texels with these moments, as a unit vector, or zero where they are all alike; and their mean.
 HWY_INLINE void principal_axis(const float* m, float* mean, float* axis) {
-    const float n = m[count];
-    for (std::size_t c = 0; c < 3; ++c) mean[c] = m[sum_r + c] / n;
+    const float n = m[Moment::count];
+    for (std::size_t c = 0; c < 3; ++c) mean[c] = m[Moment::r + c] / n;
     float scatter[3][3];
-    for (std::size_t a = 0, k = rr; a < 3; ++a)
+    for (std::size_t a = 0, k = Moment::rr; a < 3; ++a)
         for (std::size_t b = a; b < 3; ++b, ++k) scatter[a][b] = scatter[b][a] = m[k] - n * mean[a] * mean[b];
 
     // Powers of the scatter, from its largest row.
@@ -354,39 +288,35 @@ std::array<int, 3> middle_of(const Texels& t) {
     return middle;
 }
 
-/// The moments of both regions of every partition, and of whole blocks.
-struct RegionMoments {
-    alignas(64) float whole[k_texels];
-    alignas(64) float second[moments][k_partitions];
-
-    /// Those of one region of a partition, or of the whole.
-    void of(std::size_t regions, std::size_t region, std::size_t partition, float* out) const {
-        for (std::size_t k = 0; k < moments; ++k)
-            out[k] = regions == 1 ? whole[k] : region == 1 ? second[k][partition] : whole[k] - second[k][partition];
-    }
-};
-
-/// Fits a block with one region, or with the two of a partition, and keeps the best of a few rounds.
-template <Sign sign>
-void fit(const Texels& t, const RegionMoments& m, std::size_t regions, std::size_t partition, Candidate& best) {
-    constexpr int rounds = 3;
+/// Lines through one region, or through the two of a partition, to begin with.
+HWY_INLINE WideEndpoints first_lines(const Texels& t, const RegionMoments& m, std::size_t regions,
+                                     std::size_t partition) {
     WideEndpoints e{};
     const std::size_t anchors[2] = {0, k_anchor[partition]};
     for (std::size_t r = 0; r < regions; ++r) {
         alignas(64) float member[k_texels];
         for (std::size_t i = 0; i < k_texels; ++i)
             member[i] = regions == 1 || (k_second_region[partition] >> i & 1) == r ? 1.0f : 0.0f;
-        float region[moments];
+        float region[Moment::total];
         m.of(regions, r, partition, region);
-        fit_line(t, region, member, e[2 * r], e[2 * r + 1]);
+        auto &from = e[2 * r], &to = e[2 * r + 1];
+        fit_line(t, region, member, from, to);
         // Begin at the end that the anchor is nearer to: its index has no highest bit.
         float towards = 0;
         for (std::size_t c = 0; c < 3; ++c) {
-            const float middle = (e[2 * r][c] + e[2 * r + 1][c]) / 2, w = t.channel_weight[c] * t.channel_weight[c];
-            towards += (t.wide[c][anchors[r]] - middle) * (e[2 * r + 1][c] - e[2 * r][c]) * w;
+            const float w = t.channel_weight[c] * t.channel_weight[c];
+            towards += (t.wide[c][anchors[r]] - (from[c] + to[c]) / 2) * (to[c] - from[c]) * w;
         }
-        if (towards > 0) std::swap(e[2 * r], e[2 * r + 1]);
+        if (towards > 0) std::swap(from, to);
     }
+    return e;
+}
+
+/// Fits a block with one region, or with the two of a partition, and keeps the best of a few rounds.
+template <Sign sign>
+void fit(const Texels& t, const RegionMoments& m, std::size_t regions, std::size_t partition, Candidate& best) {
+    constexpr int rounds = 3;
+    WideEndpoints e = first_lines(t, m, regions, partition);
     float last = std::numeric_limits<float>::max();
     for (int round = 0; round < rounds; ++round) {
         for (std::size_t i = 0; i < 2 * regions; ++i) keep_within(t, e[i]);
@@ -399,94 +329,30 @@ void fit(const Texels& t, const RegionMoments& m, std::size_t regions, std::size
     }
 }
 
-/// What remains of the scatter of texels with these moments when they lie on their axis in `steps` steps.
-HWY_INLINE V residual(const V* m, float steps) {
-    const D d;
-    const V inverse = hn::Div(hn::Set(d, 1.0f), m[count]);
-    const auto scatter = [&](std::size_t k, std::size_t a, std::size_t b) {
-        return hn::NegMulAdd(hn::Mul(m[a], m[b]), inverse, m[k]);
-    };
-    const V srr = scatter(rr, sum_r, sum_r), srg = scatter(rg, sum_r, sum_g), srb = scatter(rb, sum_r, sum_b),
-            sgg = scatter(gg, sum_g, sum_g), sgb = scatter(gb, sum_g, sum_b), sbb = scatter(bb, sum_b, sum_b);
-    const V trace = hn::Add(hn::Add(srr, sgg), sbb);
-    // The variance along the axis, by powers of the scatter from a start that is not likely to be orthogonal to it.
-    V x = hn::Add(srr, hn::Add(hn::Abs(srg), hn::Abs(srb))), y = hn::CopySign(hn::Add(sgg, hn::Abs(sgb)), srg),
-      z = hn::CopySign(sbb, srb);
-    V squared = hn::Zero(d), value = hn::Zero(d);
-    for (int round = 0; round < 3; ++round) {
-        const V size = hn::Add(hn::Add(hn::Abs(x), hn::Abs(y)), hn::Add(hn::Abs(z), hn::Set(d, 1e-30f)));
-        const V scale = hn::Div(hn::Set(d, 1.0f), size);
-        x = hn::Mul(x, scale);
-        y = hn::Mul(y, scale);
-        z = hn::Mul(z, scale);
-        const V u = hn::MulAdd(srr, x, hn::MulAdd(srg, y, hn::Mul(srb, z)));
-        const V v = hn::MulAdd(srg, x, hn::MulAdd(sgg, y, hn::Mul(sgb, z)));
-        const V w = hn::MulAdd(srb, x, hn::MulAdd(sgb, y, hn::Mul(sbb, z)));
-        squared = hn::MulAdd(x, x, hn::MulAdd(y, y, hn::Mul(z, z)));
-        value = hn::MulAdd(u, x, hn::MulAdd(v, y, hn::Mul(w, z)));
-        x = u;
-        y = v;
-        z = w;
+/// Fits one region, then the partitions that promise most, where they promise anything.
+template <Sign sign>
+Candidate best_candidate(const Texels& t) {
+    RegionMoments m;
+    alignas(64) float estimates[k_partitions];
+    float limit = estimate_errors(t, m, estimates);
+    Candidate best;
+    fit<sign>(t, m, 1, 0, best);
+    constexpr int tried = 2;
+    for (int k = 0; k < tried && best.error > 0; ++k) {
+        const auto least = static_cast<std::size_t>(std::min_element(estimates, estimates + k_partitions) - estimates);
+        if (!(estimates[least] < limit)) break;
+        fit<sign>(t, m, 2, least, best);
+        limit = std::min(limit, 1.25f * estimates[least]);
+        estimates[least] = std::numeric_limits<float>::max();
     }
-    const V along = hn::Div(value, hn::Add(squared, hn::Set(d, 1e-30f)));
-    return hn::NegMulAdd(along, hn::Set(d, 1 - 1 / (steps * steps)), trace);
-}
-
-/// Sums the moments of whole blocks.
-HWY_INLINE void sum_whole(const Texels& t, RegionMoments& m) {
-    const D d;
-    for (std::size_t k = 0; k < k_texels; k += hn::Lanes(d)) {
-        V sum = hn::Zero(d);
-        for (std::size_t i = 0; i < k_texels; ++i) sum = hn::Add(sum, load(t.moments[i] + k));
-        hn::Store(sum, d, m.whole + k);
-    }
-}
-
-/// Sums those of all second regions, estimates the error of every partition, and returns that of one region.
-HWY_INLINE float estimate_errors(const Texels& t, RegionMoments& m, float* estimates) {
-    const D d;
-    V whole[moments];
-    for (std::size_t k = 0; k < moments; ++k) whole[k] = hn::Set(d, m.whole[k]);
-    for (std::size_t p = 0; p < k_partitions; p += hn::Lanes(d)) {
-        V second[moments], first[moments];
-        for (auto& v : second) v = hn::Zero(d);
-        for (std::size_t i = 0; i < k_texels; ++i) {
-            const V member = load(k_partition_table.member[i] + p);
-            for (std::size_t k = 0; k < moments; ++k)
-                second[k] = hn::MulAdd(member, hn::Set(d, t.moments[i][k]), second[k]);
-        }
-        for (std::size_t k = 0; k < moments; ++k) {
-            hn::Store(second[k], d, m.second[k] + p);
-            first[k] = hn::Sub(whole[k], second[k]);
-        }
-        hn::Store(hn::Add(residual(first, 7), residual(second, 7)), d, estimates + p);
-    }
-    return hn::GetLane(residual(whole, 15));
+    return best;
 }
 
 template <Sign sign>
 void encode_block(const float* const* channels, std::size_t stride, std::byte* out) {
     Texels t;
     load_texels<sign>(channels, stride, t);
-    RegionMoments m;
-    sum_whole(t, m);
-    Candidate best;
-    fit<sign>(t, m, 1, 0, best);
-
-    // Try the partitions that promise most, where they promise anything.
-    if (best.error > 0) {
-        alignas(64) float estimates[k_partitions];
-        float limit = estimate_errors(t, m, estimates);
-        constexpr int tried = 2;
-        for (int k = 0; k < tried; ++k) {
-            const auto least =
-                static_cast<std::size_t>(std::min_element(estimates, estimates + k_partitions) - estimates);
-            if (!(estimates[least] < limit)) break;
-            fit<sign>(t, m, 2, least, best);
-            limit = std::min(limit, 1.25f * estimates[least]);
-            estimates[least] = std::numeric_limits<float>::max();
-        }
-    }
+    Candidate best = best_candidate<sign>(t);
     if (!stays_within<sign>(t, best)) {
         best.endpoints = flat(middle_of<sign>(t));
         best.indices = {};
