@@ -288,7 +288,7 @@ TEST(ShConventions, BadFilesNameTheFileAndThePlace) {
     for (const ShConvention& target : sh_conventions()) {
         const char* name = target.name.data();
         expect_refused(name, "", "byte");
-        expect_refused(name, "[1, 2", "byte 7");
+        expect_refused(name, "[1, 2", "byte 6");
         expect_refused(name, "[]", "not a JSON object");
         expect_refused(name, "{}", "");
         expect_refused(name, R"({"convention": "another"})", "another");
