@@ -15,6 +15,8 @@
 
 namespace lobelia::cli {
 
+namespace {
+
 void add_light_options(CLI::App& command, SceneOptions& options) {
     command.add_option("--env", options.environment,
                        "The light around the scene: a latitude-longitude .hdr or .exr, \"sky\" for the embedded sky "
@@ -31,12 +33,14 @@ void add_light_options(CLI::App& command, SceneOptions& options) {
         ->check(number_in(2, 10));
 }
 
-void add_scene_options(CLI::App& command, SceneOptions& options) {
+}  // namespace
+
+void add_scene_options(CLI::App& command, SceneOptions& options, SceneArgument argument) {
     command
         .add_option(
             "SCENE", options.path,
             fmt::format("A .glb or .gltf file, or an embedded scene: {}", fmt::join(embedded_scene_names(), ", ")))
-        ->required();
+        ->required(argument == SceneArgument::required);
     command.add_option("--uv-set", options.uv_set, "Which TEXCOORD of a file holds the lightmap UVs")
         ->check(CLI::Range(0, 7))
         ->capture_default_str();

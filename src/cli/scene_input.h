@@ -23,10 +23,25 @@ struct SceneOptions {
     std::optional<double> turbidity;
 };
 
-/// Adds all options but the scene itself, which some verbs name otherwise.
-void add_light_options(CLI::App& command, SceneOptions& options);
-/// The same and the scene as the required argument SCENE.
-void add_scene_options(CLI::App& command, SceneOptions& options);
+/// Whether the command can do without SCENE.
+enum class SceneArgument { required, optional };
+
+/// Adds the argument SCENE and all options.
+void add_scene_options(CLI::App& command, SceneOptions& options, SceneArgument argument = SceneArgument::required);
+
+/// Calls field(name, value) for each of the options, const or not, so that they can be written down and read again.
+template <class Field, class Options>
+void visit_scene_fields(Field& field, Options& options) {
+    field("scene", options.path);
+    field("environment", options.environment);
+    field("ldr", options.read.ldr);
+    field("sanitize", options.read.sanitize);
+    field("uv_set", options.uv_set);
+    field("photometric", options.photometric);
+    field("sun_elevation", options.sun_elevation);
+    field("sun_azimuth", options.sun_azimuth);
+    field("turbidity", options.turbidity);
+}
 
 struct LoadedScene {
     Scene scene;
