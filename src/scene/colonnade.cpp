@@ -22,7 +22,7 @@ constexpr float k_end = k_half_length + 0.35f;  // inner face of the end walls
 constexpr float k_back = -3.6f;                 // inner face of the back wall
 constexpr float k_thickness = 0.3f;             // of back and end walls
 constexpr float k_edge = 0.6f;                  // where the floor ends and the steps begin
-constexpr std::size_t k_arch_segments = 16, k_column_segments = 20;
+constexpr std::size_t k_arch_segments = 16, k_column_segments = 16;
 
 struct Materials {
     std::uint32_t stone, plaster, dado, ceiling, timber, tiles, gravel, roof, red, blue, ochre, bronze, terracotta,
@@ -76,7 +76,7 @@ Materials add_materials(SceneBuilder& builder) {
             builder.material(plain("ceiling", {0.70f, 0.64f, 0.55f})),
             builder.material(plain("timber", {0.20f, 0.11f, 0.06f})),
             builder.material(tiles),
-            builder.material(plain("gravel", {0.40f, 0.34f, 0.26f}, 1)),
+            builder.material(plain("gravel", {0.30f, 0.25f, 0.18f}, 1)),
             builder.material(plain("roof", {0.45f, 0.20f, 0.12f})),
             builder.material(cloth("red cloth", {0.58f, 0.045f, 0.03f})),
             builder.material(cloth("blue cloth", {0.04f, 0.12f, 0.46f})),
@@ -278,7 +278,7 @@ void add_curtain(SceneBuilder& builder, const Curtain& curtain) {
     };
     PatchOptions options;
     options.columns = 10 * static_cast<std::size_t>(curtain.folds);
-    options.rows = 8;
+    options.rows = 6;
     options.size = {1.15f * width, k_rod - k_hem};
     options.material = curtain.material;
     builder.begin_object(curtain.name);
@@ -313,22 +313,22 @@ void add_pot(SceneBuilder& builder, const Materials& m, Vec3 foot, int number) {
                                            {0.25f, 0.42f, {0.97f, 0.1f}},
                                            {0.25f, 0.46f, {0.5f, 0.87f}},
                                            {0.02f, 0.44f, {0, 1}}}};
-    builder.lathe(foot, pot, 16, surface(m.terracotta));
+    builder.lathe(foot, pot, 14, surface(m.terracotta));
     std::vector<ProfilePoint> bush;
-    for (int i = 0; i <= 8; ++i) {
-        const double angle = k_pi * (static_cast<double>(i) / 8 - 0.5) * 0.97;
+    for (int i = 0; i <= 7; ++i) {
+        const double angle = k_pi * (static_cast<double>(i) / 7 - 0.5) * 0.97;
         const auto c = static_cast<float>(std::cos(angle)), s = static_cast<float>(std::sin(angle));
         bush.push_back({0.36f * c, 0.78f + 0.36f * s, {c, s}});
     }
-    builder.lathe(foot, bush, 16, surface(m.leaves, 0.6f));
+    builder.lathe(foot, bush, 14, surface(m.leaves, 0.6f));
 }
 
 void add_cypress(SceneBuilder& builder, const Materials& m, Vec3 foot, float height, int number) {
     builder.begin_object("cypress " + std::to_string(number));
     std::vector<ProfilePoint> profile;
-    for (int i = 0; i <= 10; ++i) {
+    for (int i = 0; i <= 8; ++i) {
         // A spindle, thickest at a quarter of its height.
-        const double t = i / 10.0;
+        const double t = i / 8.0;
         const double radius = 0.02 + 0.62 * std::pow(t, 0.45) * std::pow(1 - t, 0.8) * 1.6;
         const double slope = 0.62 * 1.6 * (t <= 0 ? 1 : radius * (0.45 / (t + 0.02) - 0.8 / (1.02 - t)));
         const double l = std::hypot(static_cast<double>(height), slope);
@@ -381,15 +381,16 @@ Scene colonnade_scene(const ColonnadeOptions& options) {
     add_rods(builder, m);
     add_curtain(builder, {"red curtain", 0, -1.0f, 0.55f, 5, 0.3f, m.red});
     add_curtain(builder, {"blue curtain", 1, -1.0f, 0.1f, 4, 1.1f, m.blue});
-    add_curtain(builder, {"ochre curtain", 3, -0.2f, 1.0f, 4, 2.3f, m.ochre});
+    add_curtain(builder, {"ochre curtain", 2, -0.1f, 1.0f, 4, 2.3f, m.ochre});
     for (int i = 0; i < 4; ++i) add_pot(builder, m, {-4.5f + 3 * static_cast<float>(i), 0, 1.75f}, i + 1);
-    for (int i = 0; i < 5; ++i)
-        add_cypress(builder, m, {-9 + 4.2f * static_cast<float>(i), 0, 8.5f + 0.6f * static_cast<float>(i % 2)},
-                    4.2f + 0.5f * static_cast<float>(i * 2 % 3), i + 1);
+    constexpr std::array<Vec3, 6> k_trees{
+        {{-10.5f, 0, 11}, {-5.8f, 0, 12.2f}, {-1.2f, 0, 11.4f}, {3.4f, 0, 12}, {-9.6f, 0, 1.5f}, {-10.4f, 0, -2.6f}}};
+    for (std::size_t i = 0; i < k_trees.size(); ++i)
+        add_cypress(builder, m, k_trees[i], 4.4f + 0.5f * static_cast<float>(i * 2 % 3), static_cast<int>(i + 1));
     Scene scene = builder.finish({.grid = 512, .padding = 4});
     add_light(scene, options);
-    scene.cameras.push_back(look("gallery", {5.7f, 2.15f, -2.9f}, {-3.2f, 1.75f, -0.9f}, 0.95f));
-    scene.cameras.push_back(look("garden", {9.5f, 3.2f, 10.5f}, {-0.6f, 2.1f, -0.5f}, 0.62f));
+    scene.cameras.push_back(look("gallery", {5.75f, 2.0f, -3.0f}, {-2.4f, 1.85f, -0.55f}, 0.95f));
+    scene.cameras.push_back(look("garden", {7.8f, 2.3f, 9.2f}, {-1.6f, 2.3f, -0.5f}, 0.66f));
     return scene;
 }
 

@@ -23,8 +23,8 @@ struct CornellOptions {
 /// arches, under the clear sky of sky.h. The sun is a directional light with the radius of its disc; the environment
 /// holds sky and ground without it.
 struct ColonnadeOptions {
-    double sun_elevation = 38;     ///< [degrees]
-    double sun_azimuth = 148;      ///< from -z towards +x [degrees]; 180 shines straight in
+    double sun_elevation = 31;     ///< [degrees]
+    double sun_azimuth = 140;      ///< from -z towards +x [degrees]; 180 shines straight in
     std::size_t sky_height = 128;  ///< texels of the environment from top to bottom, twice that around
 };
 [[nodiscard]] Scene colonnade_scene(const ColonnadeOptions& options = {});
