@@ -53,13 +53,13 @@ BakeOptions small_options() {
 
 const std::atomic<bool> k_never = false;
 
-std::unique_ptr<Bake> make(const Scene& scene, const BakeOptions& options) {
-    auto bake = Bake::make(scene, options);
+std::unique_ptr<Baker> make(const Scene& scene, const BakeOptions& options) {
+    auto bake = Baker::make(scene, options);
     EXPECT_TRUE(bake) << bake.error().message;
     return std::move(*bake);
 }
 
-std::vector<Page> baked(const Scene& scene, const BakeOptions& options, Bake::Start start = Bake::Start::fresh) {
+std::vector<Page> baked(const Scene& scene, const BakeOptions& options, Baker::Start start = Baker::Start::fresh) {
     const auto bake = make(scene, options);
     const auto status = bake->run(start, k_never);
     EXPECT_TRUE(status) << status.error().message;
@@ -87,10 +87,10 @@ TEST(Bake, IsTheSameInRegionsThatFitTheMemory) {
     const auto whole = baked(closed_box(), options);
     // Bisect for a memory that makes several regions.
     for (options.memory = 8u << 20; options.memory > 1000; options.memory -= options.memory / 16) {
-        const auto bake = Bake::make(closed_box(), options);
+        const auto bake = Baker::make(closed_box(), options);
         if (!bake) break;
         if ((*bake)->plan().regions.size() < 3) continue;
-        ASSERT_TRUE((*bake)->run(Bake::Start::fresh, k_never));
+        ASSERT_TRUE((*bake)->run(Baker::Start::fresh, k_never));
         expect_same_bits(whole, (*bake)->pages());
         return;
     }
@@ -108,13 +108,13 @@ TEST(Bake, ResumeEqualsUninterrupted) {
         const auto bake = make(closed_box(), options);
         stop = false;
         const auto status =
-            bake->run(stops == 0 ? Bake::Start::fresh : Bake::Start::resume, stop,
+            bake->run(stops == 0 ? Baker::Start::fresh : Baker::Start::resume, stop,
                       [&](const BakeProgress& progress) { stop = progress.done > 0.3 * (stops + 1) - 0.05; });
         EXPECT_FALSE(status);
     }
-    expect_same_bits(whole, baked(closed_box(), options, Bake::Start::resume));
+    expect_same_bits(whole, baked(closed_box(), options, Baker::Start::resume));
     // Resuming a finished bake does nothing.
-    expect_same_bits(whole, baked(closed_box(), options, Bake::Start::resume));
+    expect_same_bits(whole, baked(closed_box(), options, Baker::Start::resume));
 }
 
 TEST(Bake, MoreSamplesEqualAsManyFromTheStart) {
@@ -125,7 +125,7 @@ TEST(Bake, MoreSamplesEqualAsManyFromTheStart) {
     options.samples = 16;
     (void)baked(closed_box(), options);
     options.samples = 64;
-    expect_same_bits(whole, baked(closed_box(), options, Bake::Start::resume));
+    expect_same_bits(whole, baked(closed_box(), options, Baker::Start::resume));
 }
 
 /// Bakes all shards and merges them.
@@ -143,7 +143,7 @@ std::vector<Page> sharded(BakeOptions options, Shard::By by, std::uint32_t count
     const auto bake = make(closed_box(), options);
     const auto merged = merge_shards(*bake, parts);
     EXPECT_TRUE(merged) << merged.error().message;
-    return baked(closed_box(), options, Bake::Start::resume);
+    return baked(closed_box(), options, Baker::Start::resume);
 }
 
 TEST(Bake, ShardsOfTilesEqualTheWhole) {
@@ -194,16 +194,16 @@ TEST(Bake, RefusesCheckpointsThatAreNotItsOwn) {
     options.checkpoint = folder / "a";
     (void)baked(closed_box(), options);
     const fs::path file = region_file(options.checkpoint, 0);
-    const auto run = [&](const Scene& scene, const BakeOptions& with, Bake::Start start) {
+    const auto run = [&](const Scene& scene, const BakeOptions& with, Baker::Start start) {
         const auto status = make(scene, with)->run(start, k_never);
         return status ? std::string() : status.error().message;
     };
     // Not asked to resume; of another scene; with other options.
-    EXPECT_NE(run(closed_box(), options, Bake::Start::fresh).find("--resume"), std::string::npos);
-    EXPECT_NE(run(cornell_scene(), options, Bake::Start::resume).find("another scene"), std::string::npos);
+    EXPECT_NE(run(closed_box(), options, Baker::Start::fresh).find("--resume"), std::string::npos);
+    EXPECT_NE(run(cornell_scene(), options, Baker::Start::resume).find("another scene"), std::string::npos);
     BakeOptions other = options;
     other.paths.bounces = 2;
-    EXPECT_NE(run(closed_box(), other, Bake::Start::resume).find("other options"), std::string::npos);
+    EXPECT_NE(run(closed_box(), other, Baker::Start::resume).find("other options"), std::string::npos);
 
     // Cut off anywhere, or with any byte changed.
     std::string bytes;
@@ -214,16 +214,16 @@ TEST(Bake, RefusesCheckpointsThatAreNotItsOwn) {
     const auto write = [&](const std::string& content) { std::ofstream(file, std::ios::binary) << content; };
     for (const std::size_t size : {std::size_t{0}, std::size_t{7}, std::size_t{100}, std::size_t{256}, bytes.size() - 1}) {
         write(bytes.substr(0, size));
-        EXPECT_NE(run(closed_box(), options, Bake::Start::resume).find("region-0000.state"), std::string::npos) << size;
+        EXPECT_NE(run(closed_box(), options, Baker::Start::resume).find("region-0000.state"), std::string::npos) << size;
     }
     for (const std::size_t place : {0u, 9u, 17u, 33u, 49u, 300u, 5000u}) {
         std::string damaged = bytes;
         damaged[place] = static_cast<char>(damaged[place] ^ 0x10);
         write(damaged);
-        EXPECT_NE(run(closed_box(), options, Bake::Start::resume), "") << place;
+        EXPECT_NE(run(closed_box(), options, Baker::Start::resume), "") << place;
     }
     write(bytes);
-    EXPECT_EQ(run(closed_box(), options, Bake::Start::resume), "");
+    EXPECT_EQ(run(closed_box(), options, Baker::Start::resume), "");
 }
 
 /// The closed box with every surface of the same reflectance and emission.
@@ -265,10 +265,10 @@ TEST(Bake, AdaptiveStopsWhereTheErrorIsReached) {
     BakeOptions options = small_options();
     options.samples = 512;
     const auto all = make(closed_box(), options);
-    ASSERT_TRUE(all->run(Bake::Start::fresh, k_never));
+    ASSERT_TRUE(all->run(Baker::Start::fresh, k_never));
     options.target_error = 0.05;
     const auto some = make(closed_box(), options);
-    ASSERT_TRUE(some->run(Bake::Start::fresh, k_never));
+    ASSERT_TRUE(some->run(Baker::Start::fresh, k_never));
     EXPECT_LT(some->statistics().rays, all->statistics().rays);
     EXPECT_LT(some->statistics().mean_error, 0.06);
 }

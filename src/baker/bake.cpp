@@ -54,7 +54,7 @@ TexelMap only_of(const TexelMap& map, const World& world, std::uint32_t object) 
 
 }  // namespace
 
-struct Bake::Implementation {
+struct Baker::Implementation {
     const Scene* scene = nullptr;
     BakeOptions options;
     World world;
@@ -106,7 +106,7 @@ struct Bake::Implementation {
     void finish_statistics();
 };
 
-std::vector<Site> Bake::Implementation::make_sites(std::span<const std::uint32_t> texels) const {
+std::vector<Site> Baker::Implementation::make_sites(std::span<const std::uint32_t> texels) const {
     std::vector<Site> sites(texels.size());
     constexpr std::size_t grain = 1024;
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, texels.size(), grain), [&](const auto& range) {
@@ -123,7 +123,7 @@ std::vector<Site> Bake::Implementation::make_sites(std::span<const std::uint32_t
     return sites;
 }
 
-Result<RegionStates> Bake::Implementation::states_of(std::size_t region, std::span<const std::uint32_t> texels,
+Result<RegionStates> Baker::Implementation::states_of(std::size_t region, std::span<const std::uint32_t> texels,
                                                      Start start) {
     RegionStates fresh(texels.size(), layout->floats());
     fresh.header.bake = hash;
@@ -155,7 +155,7 @@ Result<RegionStates> Bake::Implementation::states_of(std::size_t region, std::sp
     return kept;
 }
 
-void Bake::Implementation::run_pass(std::span<const Site> sites, std::span<const std::uint32_t> first_of_tile,
+void Baker::Implementation::run_pass(std::span<const Site> sites, std::span<const std::uint32_t> first_of_tile,
                                     RegionStates& states, std::uint32_t pass, Run& run) const {
     const PassOptions pass_of = pass_options(pass);
     tbb::enumerable_thread_specific<SiteWorker> workers([&] { return SiteWorker(*tracer); });
@@ -174,7 +174,7 @@ void Bake::Implementation::run_pass(std::span<const Site> sites, std::span<const
     for (const SiteWorker& worker : workers) states.header.rays += worker.rays();
 }
 
-void Bake::Implementation::report(Run& run, std::uint32_t pass) const {
+void Baker::Implementation::report(Run& run, std::uint32_t pass) const {
     if (!run.sink) return;
     const auto now = Clock::now();
     if (std::chrono::duration<double>(now - run.shown).count() < 0.1 && run.tiles_done < run.tiles_all) return;
@@ -190,7 +190,7 @@ void Bake::Implementation::report(Run& run, std::uint32_t pass) const {
     run.sink(progress);
 }
 
-Status Bake::Implementation::run_region(std::size_t region, Start start, Run& run) {
+Status Baker::Implementation::run_region(std::size_t region, Start start, Run& run) {
     const std::vector<std::uint32_t> texels = plan.texels(map, region);
     auto loaded = states_of(region, texels, start);
     if (!loaded) return loaded.error();
@@ -227,11 +227,11 @@ Status Bake::Implementation::run_region(std::size_t region, Start start, Run& ru
     return Done{};
 }
 
-Bake::Bake() : implementation_(std::make_unique<Implementation>()) {}
-Bake::~Bake() = default;
+Baker::Baker() : implementation_(std::make_unique<Implementation>()) {}
+Baker::~Baker() = default;
 
-Result<std::unique_ptr<Bake>> Bake::make(const Scene& scene, const BakeOptions& options) {
-    std::unique_ptr<Bake> bake(new Bake);
+Result<std::unique_ptr<Baker>> Baker::make(const Scene& scene, const BakeOptions& options) {
+    std::unique_ptr<Baker> bake(new Baker);
     Implementation& self = *bake->implementation_;
     self.scene = &scene;
     self.options = options;
@@ -279,7 +279,7 @@ Result<std::unique_ptr<Bake>> Bake::make(const Scene& scene, const BakeOptions& 
     return bake;
 }
 
-Status Bake::run(Start start, const std::atomic<bool>& stop, const BakeProgressSink& progress) {
+Status Baker::run(Start start, const std::atomic<bool>& stop, const BakeProgressSink& progress) {
     Implementation& self = *implementation_;
     self.statistics = {};
     self.totals = {};
@@ -300,18 +300,18 @@ Status Bake::run(Start start, const std::atomic<bool>& stop, const BakeProgressS
     return Done{};
 }
 
-const BakeOptions& Bake::options() const { return implementation_->options; }
-const Atlas& Bake::atlas() const { return implementation_->atlas; }
-const TexelMap& Bake::texels() const { return implementation_->map; }
-const BakePlan& Bake::plan() const { return implementation_->plan; }
-const SiteLayout& Bake::sites() const { return *implementation_->layout; }
-std::uint64_t Bake::hash() const { return implementation_->hash; }
-const PathTracer& Bake::tracer() const { return *implementation_->tracer; }
-const Codec* Bake::codec() const { return implementation_->codec ? &*implementation_->codec : nullptr; }
-PageLayout Bake::layout() const { return {codec() == nullptr ? 0 : codec()->basis().size()}; }
-bool Bake::in_tangent_frame() const { return implementation_->in_tangent_frame(); }
-std::vector<Page>& Bake::pages() { return implementation_->pages; }
-const BakeStatistics& Bake::statistics() const { return implementation_->statistics; }
+const BakeOptions& Baker::options() const { return implementation_->options; }
+const Atlas& Baker::atlas() const { return implementation_->atlas; }
+const TexelMap& Baker::texels() const { return implementation_->map; }
+const BakePlan& Baker::plan() const { return implementation_->plan; }
+const SiteLayout& Baker::sites() const { return *implementation_->layout; }
+std::uint64_t Baker::hash() const { return implementation_->hash; }
+const PathTracer& Baker::tracer() const { return *implementation_->tracer; }
+const Codec* Baker::codec() const { return implementation_->codec ? &*implementation_->codec : nullptr; }
+PageLayout Baker::layout() const { return {codec() == nullptr ? 0 : codec()->basis().size()}; }
+bool Baker::in_tangent_frame() const { return implementation_->in_tangent_frame(); }
+std::vector<Page>& Baker::pages() { return implementation_->pages; }
+const BakeStatistics& Baker::statistics() const { return implementation_->statistics; }
 
 std::uint64_t state_hash(const Scene& scene, const BakeOptions& o) {
     // As text, so that nothing depends on how structures are padded.

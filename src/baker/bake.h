@@ -69,11 +69,11 @@ struct BakeProgress {
 };
 using BakeProgressSink = std::function<void(const BakeProgress&)>;
 
-class Bake {
+class Baker {
   public:
     /// Lays out the atlas and checks that codec, memory and options go together. The scene must outlive the bake.
-    [[nodiscard]] static Result<std::unique_ptr<Bake>> make(const Scene& scene, const BakeOptions& options);
-    ~Bake();
+    [[nodiscard]] static Result<std::unique_ptr<Baker>> make(const Scene& scene, const BakeOptions& options);
+    ~Baker();
 
     /// Runs all passes that are missing, and solves. Where options.checkpoint holds states of this very bake they are
     /// continued if `resume`, else they are an error. `stop` ends the run at once: what the last checkpoint holds
@@ -97,7 +97,7 @@ class Bake {
     [[nodiscard]] const BakeStatistics& statistics() const;
 
   private:
-    Bake();
+    Baker();
     struct Implementation;
     std::unique_ptr<Implementation> implementation_;
 };

@@ -30,7 +30,7 @@ Result<std::vector<fs::path>> region_files(std::span<const fs::path> checkpoints
 
 class Merger {
   public:
-    explicit Merger(const Bake& bake) : bake_(bake), place_(bake.texels().texels.size()) {}
+    explicit Merger(const Baker& bake) : bake_(bake), place_(bake.texels().texels.size()) {}
 
     [[nodiscard]] Status merge_region(std::size_t region, std::span<const fs::path> files) {
         const std::vector<std::uint32_t> texels = bake_.plan().texels(bake_.texels(), region);
@@ -114,7 +114,7 @@ class Merger {
         for (std::size_t i = 0; i < record.size(); ++i) record[i] += other[i];
     }
 
-    const Bake& bake_;
+    const Baker& bake_;
     std::vector<std::uint32_t> place_, passes_;
     std::set<std::pair<std::uint32_t, std::uint32_t>> seen_;  ///< shard and first place of the files taken
     std::vector<fs::path> counted_;
@@ -122,7 +122,7 @@ class Merger {
 
 }  // namespace
 
-Status merge_shards(const Bake& bake, std::span<const fs::path> checkpoints) {
+Status merge_shards(const Baker& bake, std::span<const fs::path> checkpoints) {
     const auto files = region_files(checkpoints);
     if (!files) return files.error();
     Merger merger(bake);

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <mutex>
 
 #include "baker/sites.h"
 #include "lobelia/sampling.h"
@@ -49,12 +50,14 @@ class ProbeBaker {
           fine_(std::int32_t{1} << options.levels),
           cells_(cells_of(options, tracer.world())),
           feelers_(uniform_directions(Domain::sphere, Sequence::hammersley, k_feelers, 0)) {
+        // Cells are cubes; what they are too long for the box is shared between its two sides.
         const auto [low, high] = box_of(options, tracer.world());
-        low_ = low;
-        const auto step = [&](float length, std::int32_t cells) {
-            return length / static_cast<float>(cells * fine_);
+        const auto spacing = static_cast<float>(options.spacing);
+        step_ = spacing / static_cast<float>(fine_);
+        const auto first = [&](float from, float to, std::int32_t cells) {
+            return 0.5f * (from + to - spacing * static_cast<float>(cells));
         };
-        step_ = {step(high.x - low.x, cells_[0]), step(high.y - low.y, cells_[1]), step(high.z - low.z, cells_[2])};
+        low_ = {first(low.x, high.x, cells_[0]), first(low.y, high.y, cells_[1]), first(low.z, high.z, cells_[2])};
     }
 
     [[nodiscard]] Status run(const BakeProgressSink& progress) {
@@ -78,7 +81,7 @@ class ProbeBaker {
                 for (const Place& cell : cells)
                     if (error_in(cell, size) > options_.tolerance) divided.push_back(cell);
             }
-            keep_cells(cells, divided, size, level);
+            keep_cells(cells, divided, size);
             if (divided.empty()) break;
             cells = children(divided, size / 2);
             if (auto status = bake(corners(cells, size / 2), level + 1, progress); !status) return status;
@@ -93,7 +96,6 @@ class ProbeBaker {
     struct Cell {
         Place corner;
         std::int32_t size;
-        int level;
     };
 
     static Place moved(Place p, std::int32_t x, std::int32_t y, std::int32_t z) { return {p[0] + x, p[1] + y, p[2] + z}; }
@@ -116,17 +118,22 @@ class ProbeBaker {
     }
 
     [[nodiscard]] Vec3 position_of(Place p) const {
-        return low_ + Vec3{step_.x * static_cast<float>(p[0]), step_.y * static_cast<float>(p[1]),
-                           step_.z * static_cast<float>(p[2])};
+        return low_ + Vec3{static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])} * step_;
     }
 
     [[nodiscard]] Status bake(std::span<const Place> wanted, int level, const BakeProgressSink& progress);
     [[nodiscard]] Vec3 pushed_out(Vec3 position) const;
     [[nodiscard]] std::array<Rgb, 6> irradiances(std::uint32_t probe) const;
     [[nodiscard]] double error_in(Place cell, std::int32_t size) const;
-    void keep_cells(std::span<const Place> cells, std::span<const Place> divided, std::int32_t size, int level) {
-        for (const Place& cell : cells)
-            if (!std::binary_search(divided.begin(), divided.end(), cell)) kept_.push_back({cell, size, level});
+    void keep_cells(std::span<const Place> cells, std::span<const Place> divided, std::int32_t size) {
+        // `divided` is a part of `cells`, in the same order.
+        auto next = divided.begin();
+        for (const Place& cell : cells) {
+            if (next != divided.end() && *next == cell)
+                ++next;
+            else
+                kept_.push_back({cell, size});
+        }
     }
 
     const PathTracer& tracer_;
@@ -137,7 +144,8 @@ class ProbeBaker {
     std::int32_t fine_;  ///< lattice steps along a coarse cell
     std::array<std::int32_t, 3> cells_;
     Directions feelers_;
-    Vec3 low_, step_;
+    Vec3 low_;
+    float step_;  ///< of the lattice [m]
     std::map<Place, std::uint32_t> at_;
     std::vector<Site> sites_;
     std::vector<SiteSummary> summaries_;
@@ -149,8 +157,7 @@ Vec3 ProbeBaker::pushed_out(Vec3 position) const {
     // Feel around for surfaces; a wall that shows its back is one to pass.
     std::array<PathTracer::Ray, k_feelers> rays;
     std::array<PathTracer::Hit, k_feelers> hits;
-    const Vec3 cell = step_ * static_cast<float>(fine_);
-    const float reach = 0.5f * std::min({cell.x, cell.y, cell.z});
+    const float reach = 0.5f * step_ * static_cast<float>(fine_);
     for (std::size_t i = 0; i < k_feelers; ++i)
         rays[i] = {position, direction_at(feelers_, i), std::numeric_limits<float>::infinity()};
     tracer_.closest(rays, hits);
@@ -244,6 +251,41 @@ double ProbeBaker::error_in(Place cell, std::int32_t size) const {
         all += y;
     }
     return all > 0 ? off / all : 0;
+}
+
+ProbeSet ProbeBaker::result() const {
+    const std::size_t n = codec_.basis().size();
+    ProbeSet set;
+    set.codec = options_.codec;
+    set.coefficients_per_probe = n;
+
+    // Middles that no divided cell took up are of no use; the rest keep their order.
+    std::vector<std::uint32_t> index(sites_.size(), 0);
+    for (const Cell& cell : kept_)
+        for (unsigned k = 0; k < 8; ++k) index[at_.at(corner_of(cell.corner, cell.size, k))] = 1;
+    for (std::size_t i = 0; i < sites_.size(); ++i) {
+        if (index[i] == 0) continue;
+        index[i] = static_cast<std::uint32_t>(set.positions.size());
+        set.positions.push_back(sites_[i].positions[0]);
+        set.validity.push_back(summaries_[i].validity);
+        set.back_faces.push_back(1 - summaries_[i].validity);
+        set.coefficients.insert(set.coefficients.end(), coefficients_.begin() + static_cast<std::ptrdiff_t>(i * n),
+                                coefficients_.begin() + static_cast<std::ptrdiff_t>((i + 1) * n));
+    }
+
+    // A grid says where its probes are by itself; a subdivision says it cell by cell.
+    if (options_.levels == 0) {
+        const auto count = [](std::int32_t cells) { return static_cast<std::uint32_t>(cells + 1); };
+        set.grid = ProbeGrid{{count(cells_[0]), count(cells_[1]), count(cells_[2])}, low_, Vec3{step_, step_, step_}};
+        return set;
+    }
+    for (const Cell& cell : kept_) {
+        ProbeCell& is = set.cells.emplace_back();
+        is.lowest = position_of(cell.corner);
+        is.size = step_ * static_cast<float>(cell.size);
+        for (unsigned k = 0; k < 8; ++k) is.corners[k] = index[at_.at(corner_of(cell.corner, cell.size, k))];
+    }
+    return set;
 }
 
 }  // namespace
