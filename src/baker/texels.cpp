@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cassert>
 
-#include "baker/surface.h"
+#include "baker/texel_points.h"
 
 namespace lobelia {
 namespace {

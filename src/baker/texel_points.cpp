@@ -1,5 +1,5 @@
 // Interpolation on triangles.
-#include "baker/surface.h"
+#include "baker/texel_points.h"
 
 namespace lobelia {
 
