@@ -38,8 +38,8 @@ void gather(const PathTracer& tracer, std::span<const Receiver> receivers, Sampl
     assert(samples.count % k_lanes == 0);
     const std::size_t n = samples.count, all = n * receivers.size();
     const bool dark = options.dark_below == Switch::on;
-    buffer.per_receiver_ = (dark ? 3 : 2) * n;
-    buffer.stride_ = buffer.per_receiver_;
+    buffer.directions_ = (dark ? 2 : 1) * n;
+    buffer.stride_ = buffer.directions_ + n;
     if (buffer.samples_.size() < buffer.stride_ * receivers.size())
         buffer.samples_ = Samples(buffer.stride_ * receivers.size());
     buffer.gathered_.assign(receivers.size(), {});
@@ -95,7 +95,7 @@ void gather(const PathTracer& tracer, std::span<const Receiver> receivers, Sampl
             const Rgb irradiance = light.irradiance * weight;
             const bool none = is_black(irradiance);
             buffer.samples_.set(
-                first + (dark ? 2 : 1) * n + i,
+                first + buffer.directions_ + i,
                 {none ? out : rotate(receiver.frame_from_world, light.direction), irradiance * splat, k_splat_share});
             sum = sum + irradiance * light_cosine;
             if (dark)
