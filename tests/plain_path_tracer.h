@@ -110,11 +110,12 @@ class PlainPathTracer {
                     const double size = static_cast<double>(n);
                     return static_cast<std::size_t>(v - std::floor(v / size) * size);
                 };
-                const double value =
-                    t.texels[wrap(std::floor(r) + dy, t.height) * t.width + wrap(std::floor(s) + dx, t.width)][channel] /
-                    255.0;
-                const double linear =
-                    !srgb ? value : value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
+                const double value = t.texels[wrap(std::floor(r) + dy, t.height) * t.width +
+                                              wrap(std::floor(s) + dx, t.width)][channel] /
+                                     255.0;
+                const double linear = !srgb              ? value
+                                      : value <= 0.04045 ? value / 12.92
+                                                         : std::pow((value + 0.055) / 1.055, 2.4);
                 const double fx = s - std::floor(s), fy = r - std::floor(r);
                 sum += (dx == 1 ? fx : 1 - fx) * (dy == 1 ? fy : 1 - fy) * linear;
             }
@@ -186,7 +187,8 @@ class PlainPathTracer {
                      ni = dot(n, wi), power = std::pow(1 - std::abs(dot(wo, h)), 5);
         const double d = a2 / (k_pi * std::pow(nh * nh * (a2 - 1) + 1, 2));
         // Height-correlated Smith.
-        const double visibility = 0.5 / (ni * std::sqrt(no * no * (1 - a2) + a2) + no * std::sqrt(ni * ni * (1 - a2) + a2));
+        const double visibility =
+            0.5 / (ni * std::sqrt(no * no * (1 - a2) + a2) + no * std::sqrt(ni * ni * (1 - a2) + a2));
         const double f0 = std::pow((m.ior - 1) / (m.ior + 1), 2);
         const auto coat_0 = [&](double tint) { return std::min(f0 * tint, 1.0) * m.specular; };
         const Vec3d zero{coat_0(m.specular_color.r), coat_0(m.specular_color.g), coat_0(m.specular_color.b)};
@@ -212,7 +214,8 @@ class PlainPathTracer {
             const Vec3d flat = face(hit.triangle) * side, wo = direction * -1;
             const auto& [i, j, k] = world_.triangles[hit.triangle];
             Vec3d n = normalize(Vec3d(world_.normals[i]) * (1 - hit.u - hit.v) + Vec3d(world_.normals[j]) * hit.u +
-                                Vec3d(world_.normals[k]) * hit.v) * side;
+                                Vec3d(world_.normals[k]) * hit.v) *
+                      side;
             if (dot(n, wo) <= 0 || dot(n, flat) <= 0) n = flat;
             origin = origin + direction * hit.distance + flat * 1e-7;
 
