@@ -6,8 +6,6 @@
 
 #include <charconv>
 #include <chrono>
-#include <fstream>
-#include <iterator>
 #include <thread>
 
 #include "lobelia/sky.h"
@@ -138,19 +136,6 @@ Progress progress_bar() {
         std::fflush(stderr);
         shown = true;
     };
-}
-
-Result<std::string> read_text(const std::string& path, std::uintmax_t most_mebibytes) {
-    std::error_code code;
-    if (!std::filesystem::exists(path, code)) return Error{path + ": no such file"};
-    if (!std::filesystem::is_regular_file(path, code)) return Error{path + ": not a regular file"};
-    if (std::filesystem::file_size(path, code) > most_mebibytes << 20)
-        return Error{fmt::format("{}: larger than {} MiB", path, most_mebibytes)};
-    std::ifstream file(path, std::ios::binary);
-    if (!file) return Error{path + ": cannot be opened"};
-    std::string text{std::istreambuf_iterator<char>(file), {}};
-    if (file.bad()) return Error{path + ": cannot be read"};
-    return text;
 }
 
 }  // namespace lobelia::cli

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include "io/read_image.h"
+#include "io/read_text.h"
 #include "io/write_file.h"
 #include "report/comparison.h"
 #include "report/json.h"
@@ -60,8 +61,5 @@ void complain(const std::string& line);
 
 /// A bar on stderr for work that lasts over a second, only where stderr is a terminal.
 [[nodiscard]] Progress progress_bar();
-
-/// The whole of a text file of at most `most_mebibytes`.
-[[nodiscard]] Result<std::string> read_text(const std::string& path, std::uintmax_t most_mebibytes = 64);
 
 }  // namespace lobelia::cli
