@@ -38,7 +38,7 @@ SeamReport close_seams(std::span<Page> pages, const PageLayout& layout, const At
 /// so that directions are not smeared by brightness (for SH: L1 / L0).
 struct DenoiseOptions {
     int passes = 4;               ///< a-trous levels, 1 to 6
-    float strength = 1;           ///< how many standard errors count as noise
+    float strength = 2;           ///< how many standard errors of a difference count as noise
     float least_validity = 0.5f;  ///< texels below it are neither read nor changed
 };
 void denoise(std::span<Page> pages, const PageLayout& layout, const Guides& guides, std::span<const double> integrals,
