@@ -403,17 +403,22 @@ TEST(PathTracer, TransparencyLetsItsShareThrough) {
 }
 
 TEST(PathTracer, OneSidedSurfacesStopLightFromTheFrontOnly) {
-    const Material sheet = test::matte({});
-    const auto irradiance = [&](Vec3 x, Vec3 y) {
-        Scene scene = sheet_scene(sheet, x, y);
+    // What the floor reflects of the point light, seen from between it and the sheet.
+    const auto radiance = [&](Vec3 x, Vec3 y) {
+        Scene scene = sheet_scene(test::matte({}), x, y);
+        scene.materials[0] = test::matte({1, 1, 1});
         scene.environment.reset();
         const World world = make_world(scene);
-        const PathTracer tracer(scene, world);
-        return measure(tracer, {}, {0, 1, 0}).channels[0].mean();
+        const PathTracer tracer(scene, world, {.bounces = 1});
+        const auto scratch = tracer.make_scratch();
+        const PathStart start{{0, 0.5f, 0}, {0, -1, 0}, 0, 0};
+        Incident in;
+        tracer.trace({&start, 1}, {&in, 1}, *scratch);
+        return static_cast<double>(in.scattered.g);
     };
     // The shadow ray comes from below: it meets the front of a sheet that faces down.
-    EXPECT_EQ(irradiance({1, 0, 0}, {0, 0, 1}), 0);
-    EXPECT_NEAR(irradiance({0, 0, 1}, {1, 0, 0}), 4 * 2 / std::pow(4.1, 1.5), 1e-4);
+    EXPECT_EQ(radiance({1, 0, 0}, {0, 0, 1}), 0);
+    EXPECT_NEAR(radiance({0, 0, 1}, {1, 0, 0}), 4 * 2 / std::pow(4.1, 1.5) / k_pi, 1e-4);
 }
 
 TEST(PathTracer, CoincidentOneSidedSurfacesAreASolidSheet) {
@@ -429,6 +434,13 @@ TEST(PathTracer, CoincidentOneSidedSurfacesAreASolidSheet) {
         const auto found = measure(tracer, {0.1f, y, 0.1f}, {0, y < 0 ? 1.0f : -1.0f, 0});
         expect_near(found.channels[0], 2 * k_pi, 3.5);
         EXPECT_EQ(found.back_faces, 0u);
+    }
+}
+
+TEST(PathTracer, NoLightReachesReceiversPastBacks) {
+    for (const Switch next_event : {Switch::on, Switch::off}) {
+        const Scene scene = sheet_scene(test::matte({}), {0, 0, 1}, {1, 0, 0});
+        EXPECT_LT(transmitted(scene, next_event), 1e-4);
     }
 }
 
