@@ -558,7 +558,7 @@ TEST(BadGltf, PlaceIsNamed) {
     expect_error("textures[0].sampler: 3 of 1", [](F& f) { f.root["textures"][0]["sampler"] = 3; });
     expect_error("textures[0].source: 3 of 2", [](F& f) { f.root["textures"][0]["source"] = 3; });
     expect_error("images[0]: must have either", [](F& f) { f.root["images"][0].erase("bufferView"); });
-    expect_error("images[1].uri: \"data:image/png;base64,#\": a character that is not base64",
+    expect_error("images[1].uri: \"data:image/png;base64,####\": a character that is not base64",
                  [](F& f) { f.root["images"][1]["uri"] = "data:image/png;base64,####"; });
     expect_error("images[1]: neither PNG nor JPEG",
                  [](F& f) { f.root["images"][1]["uri"] = "data:image/png;base64,AAAA"; });

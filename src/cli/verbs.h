@@ -24,5 +24,7 @@ struct Verb {
 [[nodiscard]] Verb add_reference(CLI::App& app);
 [[nodiscard]] Verb add_list(CLI::App& app);
 [[nodiscard]] Verb add_study(CLI::App& app);
+[[nodiscard]] Verb add_scene(CLI::App& app);
+[[nodiscard]] Verb add_unwrap(CLI::App& app);
 
 }  // namespace lobelia::cli
