@@ -55,9 +55,10 @@ void fields(auto& archive, BakeStatistics& statistics) {
     archive.number("seconds", statistics.seconds);
     archive.whole("samples", statistics.samples, 0, k_any_u32);
     archive.number("mean_error", statistics.mean_error);
-    archive.whole("back_faces", statistics.back_faces, 0, k_any_u64);
+    archive.number("back_face_share", statistics.back_face_share);
     archive.number("negative_share", statistics.negative_share);
     archive.number("ringing", statistics.ringing);
+    archive.number("codec_error", statistics.codec_error);
 }
 
 }  // namespace lobelia
