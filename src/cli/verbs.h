@@ -23,6 +23,7 @@ struct Verb {
 [[nodiscard]] Verb add_eval(CLI::App& app);
 [[nodiscard]] Verb add_reference(CLI::App& app);
 [[nodiscard]] Verb add_list(CLI::App& app);
+[[nodiscard]] Verb add_render(CLI::App& app);
 [[nodiscard]] Verb add_study(CLI::App& app);
 
 }  // namespace lobelia::cli
