@@ -40,6 +40,8 @@ struct Scattered {
 /// selects the layer or the base.
 [[nodiscard]] Scattered scatter(const Reflectance& surface, Vec3 wo, Pair point, float choice);
 [[nodiscard]] float scatter_pdf(const Reflectance& surface, Vec3 wo, Vec3 wi);
+/// Albedo of the base under the layer, for light from wi: the base's part of reflected() is this times cosine over pi.
+[[nodiscard]] Rgb base_albedo(const Reflectance& surface, Vec3 wo, Vec3 wi);
 /// The reflectance distribution [1/sr], times the cosine of wi.
 [[nodiscard]] Rgb reflected(const Reflectance& surface, Vec3 wo, Vec3 wi);
 
