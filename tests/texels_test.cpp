@@ -195,9 +195,9 @@ TEST(PushOut, StepsUpOntoWhatLiesFlat) {
 }
 
 TEST(PushOut, PassesThroughNoWall) {
-    // Two rooms share a floor; their walls are planes that look into each, nearer to each other than any texel. What
-    // stands free in one room stays in it.
-    for (const float gap : {1e-2f, 1e-4f, 1e-5f}) {
+    // Two rooms share a floor; their walls are planes that look into each, nearer to each other than any texel, or one.
+    // What stands free in one room stays in it.
+    for (const float gap : {1e-2f, 1e-4f, 1e-5f, 0.0f}) {
         const Mesh right = unbaked(parallelogram({gap / 2, -2, -1}, {0, 4, 0}, {0, 0, 3}));
         const Mesh left = unbaked(parallelogram({-gap / 2, -2, -1}, {0, 0, 3}, {0, 4, 0}));
         const Baked baked = floor_with({right, left});

@@ -44,7 +44,8 @@ class Pusher {
     /// Where a position goes, or nothing if it is buried for good.
     [[nodiscard]] std::optional<Vec3> moved(Vec3 position, Vec3 normal, float width) const;
     [[nodiscard]] bool sees_only_backs(Vec3 position, Vec3 normal) const;
-    [[nodiscard]] Vec3 past(const Ray& ray, const Hit& hit) const;
+    /// The way to the front of what the ray met from behind: a point past it, if nothing stops light between.
+    [[nodiscard]] std::optional<Vec3> past(const Ray& ray, const Hit& hit) const;
 
     const PathTracer& tracer_;
     std::vector<Ray> rays_;
@@ -83,12 +84,15 @@ void Pusher::find_suspects(std::span<const TexelReach> reach, std::span<const Te
             suspects_.push_back(texel_of_ray_[r]);
 }
 
-Vec3 Pusher::past(const Ray& ray, const Hit& hit) const {
-    // Step past the surface by some lifts, but not past what lies right behind it.
+std::optional<Vec3> Pusher::past(const Ray& ray, const Hit& hit) const {
+    // Step past the surface by some lifts.
     const float lift = tracer_.lift(ray.origin);
     const float slope = std::max(0.125f, std::abs(dot(ray.direction, tracer_.world().face_normal(hit.triangle))));
     const float step = 4 * lift / slope;
     const Ray beyond{ray.origin + ray.direction * (hit.distance + step / 4), ray.direction, step};
+    // Where the front of another surface lies at the same place, this is a wall between two rooms.
+    if (tracer_.stops({ray.origin, ray.direction, hit.distance + step / 4})) return std::nullopt;
+    // Stay before what lies right behind it.
     Hit next;
     tracer_.closest({&beyond, 1}, {&next, 1});
     return beyond.origin + beyond.direction * (std::isfinite(next.distance) ? next.distance / 2 : 0.75f * step);
@@ -103,7 +107,11 @@ bool Pusher::sees_only_backs(Vec3 position, Vec3 normal) const {
                    k_infinite};
     rays[5] = {position, normal, k_infinite};
     tracer_.closest(rays, hits);
-    return std::all_of(hits.begin(), hits.end(), [&](const Hit& hit) { return from_behind(hit); });
+    const float slack = 4 * tracer_.lift(position);
+    for (std::size_t r = 0; r < rays.size(); ++r)
+        if (!from_behind(hits[r]) || tracer_.stops({position, rays[r].direction, hits[r].distance + slack}))
+            return false;
+    return true;
 }
 
 std::optional<Vec3> Pusher::moved(Vec3 position, Vec3 normal, float width) const {
@@ -116,15 +124,23 @@ std::optional<Vec3> Pusher::moved(Vec3 position, Vec3 normal, float width) const
             rays[r] = {position, along_surface(normal, static_cast<float>(r) / k_second_look), left};
         rays[k_second_look] = {position, normal, left};
         tracer_.closest(rays, hits);
-        std::size_t nearest = k_second_look;
+        std::optional<Vec3> to;
+        float distance = k_infinite;
         for (std::size_t r = 0; r < k_second_look; ++r)
-            if (from_behind(hits[r]) && (nearest == k_second_look || hits[r].distance < hits[nearest].distance))
-                nearest = r;
-        if (!from_behind(hits[nearest])) break;
+            if (from_behind(hits[r]) && hits[r].distance < distance)
+                if (const auto there = past(rays[r], hits[r])) {
+                    to = there;
+                    distance = hits[r].distance;
+                }
+        if (!to && from_behind(hits[k_second_look])) {
+            to = past(rays[k_second_look], hits[k_second_look]);
+            distance = hits[k_second_look].distance;
+        }
+        if (!to) break;
 
         // Go there.
-        position = past(rays[nearest], hits[nearest]);
-        left = std::max(0.0f, left - hits[nearest].distance);
+        position = *to;
+        left = std::max(0.0f, left - distance);
     }
     if (sees_only_backs(position, normal)) return std::nullopt;
     return position;
