@@ -81,6 +81,10 @@ void PathTracer::closest(std::span<const Ray> rays, std::span<Hit> out) const {
     }
 }
 
+bool PathTracer::stops(const Ray& ray) const {
+    return implementation_->rays.stopped(ray.origin, ray.direction, ray.farthest, 0);
+}
+
 bool PathTracer::has_light() const { return implementation_->lights.any(); }
 std::uint64_t PathTracer::rays(const Scratch& scratch) { return scratch.rays; }
 const World& PathTracer::world() const { return *implementation_->world; }

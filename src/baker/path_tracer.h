@@ -87,6 +87,8 @@ class PathTracer {
         float farthest = 0;  ///< no hit beyond; infinite: anywhere
     };
     void closest(std::span<const Ray> rays, std::span<Hit> out) const;
+    /// Whether a surface stops light on the ray: backs of one-sided surfaces do not, whatever lies at the same place.
+    [[nodiscard]] bool stops(const Ray& ray) const;
 
     /// Whether there is any light at all: a source, or an environment that is not black.
     [[nodiscard]] bool has_light() const;
