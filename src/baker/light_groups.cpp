@@ -40,7 +40,8 @@ void Lights::add_sky(const PathOptions& options) {
             environment_.emplace(image, options.environment_table == Switch::on
                                             ? EnvironmentLight::Choice::by_brightness
                                             : EnvironmentLight::Choice::uniform);
-            const Source source{Kind::environment, 0, static_cast<float>(k_pi) * environment_->mean_luminance(), {}, 0, {}};
+            const Source source{
+                Kind::environment, 0, static_cast<float>(k_pi) * environment_->mean_luminance(), {}, 0, {}};
             add_group({&source, 1}, true);
         }
     }
@@ -58,7 +59,12 @@ void Lights::add_sky(const PathOptions& options) {
             sun.radiance = light.intensity * static_cast<float>(1 / (k_pi * sine * sine));
             sun.disc_pdf = static_cast<float>(1 / (4 * k_pi * half * half));
         }
-        suns.push_back({Kind::sun, static_cast<std::uint32_t>(suns_.size()), brightness(light.intensity), sun.direction, static_cast<float>(sine), {}});
+        suns.push_back({Kind::sun,
+                        static_cast<std::uint32_t>(suns_.size()),
+                        brightness(light.intensity),
+                        sun.direction,
+                        static_cast<float>(sine),
+                        {}});
         suns_.push_back(sun);
     }
     if (suns.size() > k_single_suns) {

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
+#include <vector>
 
 namespace lobelia {
 
@@ -28,5 +30,17 @@ struct Pair {
 
 /// The same with `mixed_key` = mix(key, seed), for whoever asks often.
 [[nodiscard]] Pair pair_of(std::uint32_t mixed_key, std::uint32_t sample, std::uint32_t dimension_pair);
+
+/// Many points: a[i], b[i].
+struct Pairs {
+    std::vector<float> a, b;
+    explicit Pairs(std::size_t size) : a(size), b(size) {}
+    [[nodiscard]] Pair operator[](std::size_t i) const { return {a[i], b[i]}; }
+};
+
+/// The first of `out`: for each of `mixed_keys`, point samples[i]; the same bits as pair_of. Precondition: their number
+/// is a multiple of k_lanes.
+void pairs_of(std::span<const std::uint32_t> mixed_keys, std::span<const std::uint32_t> samples,
+              std::uint32_t dimension_pair, Pairs& out);
 
 }  // namespace lobelia

@@ -1,8 +1,6 @@
 // From triangles and materials to shading points.
 #include "baker/surface.h"
 
-#include "baker/texture.h"
-
 namespace lobelia {
 namespace {
 
@@ -21,6 +19,7 @@ constexpr float k_flat_cosine = 1 - 1e-6f;
 Surfaces::Surfaces(const Scene& scene, const World& world) : scene_(&scene), world_(&world) {
     for (const Material& m : scene.materials) {
         const bool plain = m.unlit || (!m.base_color_texture && !m.metallic_roughness_texture);
+        layered_ |= m.metallic > 0 || m.specular > 0;
         finishes_.push_back({make_reflectance(m, m.base_color, m.metallic, m.roughness), plain});
     }
     facets_.resize(world.triangles.size());
@@ -64,9 +63,9 @@ Vec2 Surfaces::uv(std::uint32_t triangle, float u, float v, std::size_t set) con
     return a * (1 - u - v) + b * u + c * v;
 }
 
-std::array<float, 4> Surfaces::read(const TextureUse& use, std::uint32_t triangle, float u, float v, int curve) const {
-    return texture_value(scene_->textures[use.texture], texture_uv(use, uv(triangle, u, v, use.uv_set)),
-                         static_cast<Curve>(curve));
+std::array<float, 4> Surfaces::read(const TextureUse& use, Curve curve, std::uint32_t triangle, float u,
+                                    float v) const {
+    return texture_value(scene_->textures[use.texture], texture_uv(use, uv(triangle, u, v, use.uv_set)), curve);
 }
 
 std::array<float, 4> Surfaces::vertex_color(std::uint32_t triangle, float u, float v) const {
@@ -85,7 +84,7 @@ Rgb Surfaces::base_color(std::uint32_t triangle, float u, float v) const {
         base = product(base, {c[0], c[1], c[2]});
     }
     if (m.base_color_texture) {
-        const auto c = read(*m.base_color_texture, triangle, u, v, static_cast<int>(Curve::srgb));
+        const auto c = read(*m.base_color_texture, Curve::srgb, triangle, u, v);
         base = product(base, {c[0], c[1], c[2]});
     }
     return base;
@@ -96,7 +95,7 @@ Reflectance Surfaces::reflectance(std::uint32_t triangle, float u, float v) cons
     const Rgb base = base_color(triangle, u, v);
     float metallic = m.metallic, roughness = m.roughness;
     if (m.metallic_roughness_texture) {
-        const auto c = read(*m.metallic_roughness_texture, triangle, u, v, static_cast<int>(Curve::linear));
+        const auto c = read(*m.metallic_roughness_texture, Curve::linear, triangle, u, v);
         roughness *= c[1];
         metallic *= c[2];
     }
@@ -125,7 +124,7 @@ SurfacePoint Surfaces::point(std::uint32_t triangle, float u, float v, Vec3 dire
 Rgb Surfaces::emission(std::uint32_t triangle, float u, float v) const {
     const Material& m = scene_->materials[facets_[triangle].material];
     if (!m.emissive_texture) return m.emission;
-    const auto c = read(*m.emissive_texture, triangle, u, v, static_cast<int>(Curve::srgb));
+    const auto c = read(*m.emissive_texture, Curve::srgb, triangle, u, v);
     return product(m.emission, {c[0], c[1], c[2]});
 }
 
@@ -134,7 +133,7 @@ float Surfaces::opacity(std::uint32_t triangle, float u, float v) const {
     if (m.alpha_mode == Material::Alpha::opaque) return 1;
     float alpha = m.alpha;
     if (facets_[triangle].colored) alpha *= vertex_color(triangle, u, v)[3];
-    if (m.base_color_texture) alpha *= read(*m.base_color_texture, triangle, u, v, static_cast<int>(Curve::srgb))[3];
+    if (m.base_color_texture) alpha *= read(*m.base_color_texture, Curve::srgb, triangle, u, v)[3];
     if (m.alpha_mode == Material::Alpha::mask) return alpha >= m.alpha_cutoff ? 1.0f : 0.0f;
     return std::clamp(alpha, 0.0f, 1.0f);
 }

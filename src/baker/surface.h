@@ -5,6 +5,7 @@
 
 #include "baker/material.h"
 #include "baker/rays.h"
+#include "baker/texture.h"
 #include "scene/world.h"
 
 namespace lobelia {
@@ -49,7 +50,9 @@ class Surfaces final : public Transparency {
     [[nodiscard]] bool passes(std::uint32_t triangle, float u, float v, std::uint32_t salt) const override;
     /// Each triangle's kind, as RayScene takes them.
     [[nodiscard]] std::vector<std::uint8_t> kinds() const;
-    /// Numbers the triangles that emit, and returns them in that order.
+    /// Whether any material has more than a diffuse base.
+    [[nodiscard]] bool layered() const { return layered_; }
+    /// The triangles that emit, by their number.
     [[nodiscard]] const std::vector<std::uint32_t>& emissive() const { return emissive_; }
 
   private:
@@ -58,8 +61,8 @@ class Surfaces final : public Transparency {
         bool plain = false;       ///< no texture: the reflectance is the same everywhere
     };
     [[nodiscard]] Vec2 uv(std::uint32_t triangle, float u, float v, std::size_t set) const;
-    [[nodiscard]] std::array<float, 4> read(const TextureUse& use, std::uint32_t triangle, float u, float v,
-                                            int curve) const;
+    [[nodiscard]] std::array<float, 4> read(const TextureUse& use, Curve curve, std::uint32_t triangle, float u,
+                                            float v) const;
     [[nodiscard]] std::array<float, 4> vertex_color(std::uint32_t triangle, float u, float v) const;
     [[nodiscard]] Reflectance reflectance(std::uint32_t triangle, float u, float v) const;
 
@@ -68,6 +71,7 @@ class Surfaces final : public Transparency {
     std::vector<Facet> facets_;
     std::vector<Finish> finishes_;
     std::vector<std::uint32_t> emissive_;
+    bool layered_ = false;
 };
 
 /// How far to lift a ray's origin off a surface whose coordinates are at most `magnitude` [m].

@@ -3,7 +3,8 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cmath>
+
+#include "baker/texel_points.h"
 
 namespace lobelia {
 namespace {
@@ -15,19 +16,6 @@ constexpr std::uint32_t k_nobody = 0xffffffff;
 
 /// Which triangle of the texel's chart holds each point of its pattern.
 using Holders = std::array<std::uint32_t, k_most_positions>;
-
-/// The triangle's point with these weights, and its smooth normal there.
-Vec3 position_at(const World& world, std::size_t t, const std::array<float, 3>& w) {
-    const auto& [a, b, c] = world.triangles[t];
-    return world.positions[a] * w[0] + world.positions[b] * w[1] + world.positions[c] * w[2];
-}
-Vec3 normal_at(const World& world, std::size_t t, const std::array<float, 3>& w) {
-    const auto& [a, b, c] = world.triangles[t];
-    const Vec3 n = world.normals[a] * w[0] + world.normals[b] * w[1] + world.normals[c] * w[2];
-    if (const float l = length(n); l > 1e-6f) return n * (1 / l);
-    const Vec3 face = world.face_normal(t);
-    return dot(face, face) > 0 ? face : world.normals[a];
-}
 
 /// Makes the texels [begin, end) of the map, which lie on one tile.
 class TileTexels {
@@ -88,17 +76,12 @@ Texel TileTexels::texel(std::size_t i, const Holders& holders) const {
     const World& world = atlas_.world();
     const std::uint32_t t = map_.triangle[i];
     const int x = static_cast<int>(map_.texels[i].x), y = static_cast<int>(map_.texels[i].y);
-    const PageTriangle triangle(atlas_.texel_triangle(t));
 
     // What it is: the surface at its centre, or at the covered point nearest to that.
-    const PagePoint centre{x + 0.5, y + 0.5};
-    const bool holds_centre = triangle.contains(centre);
-    const Polygon covered = holds_centre ? Polygon{} : triangle.part_in(x, y);
-    assert(holds_centre || covered.size > 0);
-    const auto weights = triangle.weights(holds_centre ? centre : covered.nearest(centre));
+    const auto [position, normal] = surface_of(atlas_, map_, i);
     Texel result;
-    result.position = position_at(world, t, weights);
-    result.normal = normal_at(world, t, weights);
+    result.position = position;
+    result.normal = normal;
     result.face_normal = world.face_normal(t);
     if (dot(result.face_normal, result.face_normal) == 0) result.face_normal = result.normal;
     result.object = world.object[t];
@@ -108,8 +91,12 @@ Texel TileTexels::texel(std::size_t i, const Holders& holders) const {
     for (std::size_t k = 0; k < k_most_positions; ++k)
         if (holders[k] != k_nobody)
             result.positions[result.position_count++] = lifted(holders[k], {x + k_pattern[k].x, y + k_pattern[k].y});
-    if (result.position_count == 0)
-        result.positions[result.position_count++] = lifted(t, holds_centre ? centre : covered.centroid());
+    if (result.position_count == 0) {
+        const PageTriangle triangle(atlas_.texel_triangle(t));
+        const PagePoint centre{x + 0.5, y + 0.5};
+        const PagePoint middle = triangle.contains(centre) ? centre : triangle.part_in(x, y).centroid();
+        result.positions[result.position_count++] = lifted(t, middle);
+    }
     return result;
 }
 

@@ -21,9 +21,11 @@ class JsonFieldWriter {
     void number(const char* name, const std::optional<double>& value) {
         object[name] = value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json();
     }
+    void text(const char* name, const std::string& value) { object[name] = value; }
     void text(const char* name, const std::optional<std::string>& value) {
         object[name] = value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json();
     }
+    void flag(const char* name, const bool& value) { object[name] = value; }
     template <class Enum, std::size_t N>
     void choice(const char* name, const Enum& value, const std::array<const char*, N>& names) {
         object[name] = names[static_cast<std::size_t>(value)];
@@ -52,8 +54,12 @@ class JsonFieldReader {
     void number(const char* name, std::optional<double>& value) {
         if (const auto found = place_.find(name)) value = found->number();
     }
-    void text(const char* name, std::optional<std::string>& value) {
+    template <class Text>
+    void text(const char* name, Text& value) {
         if (const auto found = place_.find(name)) value = found->text();
+    }
+    void flag(const char* name, bool& value) {
+        if (const auto found = place_.find(name)) value = found->flag();
     }
     template <class Enum, std::size_t N>
     void choice(const char* name, Enum& value, const std::array<const char*, N>& names) {
