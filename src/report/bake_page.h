@@ -6,7 +6,9 @@
 #include <vector>
 
 #include "baker/bake.h"
+#include "baker/output/bake_folder.h"
 #include "baker/page_reader.h"
+#include "baker/render.h"
 #include "lobelia/image.h"
 
 namespace lobelia {
@@ -64,6 +66,16 @@ struct BakePage {
 [[nodiscard]] std::vector<ObjectFigures> object_figures(const Scene& scene, const BakedLight& light,
                                                         std::span<const std::uint32_t> object_of_chart,
                                                         std::span<const std::vector<Rgb>> codec_irradiance);
+
+/// Everything but warnings, views and preflight of a bake that is in memory: `bake` as it is written, `baker` after it
+/// has run. Both must outlive the page.
+[[nodiscard]] BakePage bake_page_of(const Scene& scene, const Baker& baker, const Bake& bake);
+
+/// The scene from each of its cameras, or the default one, at most `most`: lit by the bake and path-traced with the
+/// bake's options. Nothing where options.stop was set on the way.
+[[nodiscard]] std::optional<std::vector<BakeView>> render_views(const Scene& scene, const BakedLight& light,
+                                                                const PathOptions& paths, const RenderOptions& options,
+                                                                std::size_t most = 4);
 
 struct BakePageOptions {
     std::size_t most_layer_bytes = std::size_t{24} << 20;  ///< of the lightmaps' pictures; larger ones are reduced
