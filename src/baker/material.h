@@ -1,4 +1,5 @@
-// How a surface reflects: glTF's metallic-roughness model, as diffuse reflection under a GGX layer.
+// How a surface reflects: glTF's metallic-roughness model, as diffuse reflection under a GGX layer. The model is taken
+// as it is specified: at grazing angles base and layer may together reflect up to a third more than arrives.
 // Khronos 2021 (the model); Walter et al. 2007, Heitz 2014 (GGX); Heitz 2018 (visible normals); Schlick 1994.
 #pragma once
 

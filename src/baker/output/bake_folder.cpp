@@ -6,10 +6,10 @@
 #include <algorithm>
 
 #include "baker/output/bake_fields.h"
+#include "baker/output/files_together.h"
 #include "baker/output/page_files.h"
 #include "baker/output/page_textures.h"
 #include "baker/output/probe_files.h"
-#include "io/staged_file.h"
 
 namespace lobelia {
 namespace {
@@ -18,36 +18,6 @@ namespace fs = std::filesystem;
 
 constexpr const char* k_probes_name = "probes.json";
 constexpr const char* k_probe_coefficients_name = "probes.bin";
-
-/// Files that are all complete before the first takes its place.
-class FilesTogether {
-  public:
-    explicit FilesTogether(fs::path folder) : folder_(std::move(folder)) {}
-
-    /// Fills a file by `write(staged file)`.
-    template <class Write>
-    Status add(const std::string& name, const Write& write) {
-        auto file = StagedFile::create(folder_ / name);
-        if (!file) return file.error();
-        if (auto status = write(*file); !status) return status;
-        if (auto status = file->flush(); !status) return status;
-        files_.push_back(*std::move(file));
-        return Done{};
-    }
-    Status add_text(const std::string& name, std::string_view text) {
-        return add(name, [&](StagedFile& file) { return file.write(std::as_bytes(std::span(text))); });
-    }
-    /// In the order in which they were added.
-    Status commit() {
-        for (auto& file : files_)
-            if (auto status = file.commit(); !status) return status;
-        return Done{};
-    }
-
-  private:
-    fs::path folder_;
-    std::vector<StagedFile> files_;
-};
 
 using Packings = std::vector<std::shared_ptr<const TexturePacking>>;
 
@@ -112,28 +82,19 @@ Status add_probes(FilesTogether& files, const Bake& bake, Manifest& manifest) {
     return status;
 }
 
-/// Writes all files beside their places, then puts them in place.
-Status write_into(const fs::path& folder, const Bake& bake, const Packings& packings) {
-    FilesTogether files(folder);
-    Manifest manifest = bake.manifest;
-    auto status = add_pages(files, bake, packings, manifest);
-    if (status) status = add_probes(files, bake, manifest);
-    if (status) status = files.add_text(k_manifest_name, to_json_text(manifest));
-    return status ? files.commit() : status;
-}
-
 }  // namespace
 
 Status write_bake(const fs::path& folder, const Bake& bake, const WriteBakeOptions& options) {
     assert(bake.pages.size() == bake.normals.size());
     const auto packings = chosen_packings(bake.manifest.options, options);
     if (!packings) return packings.error();
-    std::error_code code;
-    const bool made = fs::create_directories(folder, code);
-    if (code) return Error{fmt::format("{}: cannot be made a folder: {}", folder.string(), code.message())};
-    auto status = write_into(folder, bake, *packings);
-    if (!status && made) fs::remove(folder, code);
-    return status;
+    auto files = FilesTogether::in(folder);
+    if (!files) return files.error();
+    Manifest manifest = bake.manifest;
+    auto status = add_pages(*files, bake, *packings, manifest);
+    if (status) status = add_probes(*files, bake, manifest);
+    if (status) status = files->add_text(k_manifest_name, to_json_text(manifest));
+    return status ? files->commit() : status;
 }
 
 Result<Bake> read_bake(const fs::path& path) {

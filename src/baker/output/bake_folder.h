@@ -19,7 +19,7 @@ struct Bake {
 
 struct WriteBakeOptions {
     /// Ways to store the coefficients in textures, by name; absent: all that the basis knows (Basis::packings).
-    std::optional<std::vector<std::string>> packings;
+    std::optional<std::vector<std::string>> packings = {};
 };
 
 /// Writes the pages, their textures and the probes, then the manifest with the files' names filled in. The folder is
