@@ -37,7 +37,7 @@ float texel_width(const Atlas& atlas, std::size_t triangle) {
     return std::isfinite(width) ? width : 0;
 }
 
-SurfacePoint surface_of(const Atlas& atlas, const TexelMap& map, std::size_t i) {
+TexelSurface surface_of(const Atlas& atlas, const TexelMap& map, std::size_t i) {
     const std::uint32_t t = map.triangle[i];
     const PageTriangle triangle(atlas.texel_triangle(t));
     const auto weights =

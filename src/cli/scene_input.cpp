@@ -59,7 +59,13 @@ Result<LoadedScene> read_or_make(const SceneOptions& options) {
     if (embedded && !std::filesystem::is_regular_file(options.path, code)) {
         auto scene = embedded_scene(options.path);
         if (!scene) return scene.error();
-        return LoadedScene{*std::move(scene), options.path, {}};
+        return LoadedScene{*std::move(scene), {}};
+    }
+    if (std::filesystem::exists(options.path, code)) {
+        GltfReadOptions read;
+        read.uv_set = options.uv_set;
+        if (options.photometric) read.units = GltfReadOptions::Units::photometric;
+        return read_gltf(options.path, read);
     }
     return Error{
         fmt::format("{}: no such file, and no embedded scene (known: {})", options.path, fmt::join(names, ", "))};
