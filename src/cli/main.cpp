@@ -60,10 +60,8 @@ int main(int argc, char** argv) {
     app.require_subcommand(0, 1);
     app.get_formatter()->column_width(36);
     app.footer("lobelia VERB -h tells a verb's options; lobelia alone shows examples.");
-    const std::vector<lobelia::cli::Verb> verbs = {lobelia::cli::add_compare(app), lobelia::cli::add_encode(app),
-                                                   lobelia::cli::add_eval(app),    lobelia::cli::add_reference(app),
-                                                   lobelia::cli::add_list(app),    lobelia::cli::add_study(app),
-                                                   lobelia::cli::add_scene(app),   lobelia::cli::add_unwrap(app)};
+    std::vector<lobelia::cli::Verb> verbs;
+    for (const auto& add : lobelia::cli::k_verbs) verbs.push_back(add(app));
 
     try {
         const int code = run(app, verbs, argc, argv);

@@ -45,7 +45,7 @@ Status check_tools(const std::filesystem::path& folder) {
     const auto node = run_program({"node", "--version"}, std::chrono::seconds(20));
     if (!node || node->code != 0)
         return Error{
-            "lobelia unwrap needs Node.js 18 or newer, and no \"node\" can be run; setup/packages unwrap "
+            "lobelia unwrap needs Node.js 18 or newer, and no \"node\" can be run; setup/packages node "
             "installs it; or give the scene lightmap UVs in a modelling program (as TEXCOORD_1)"};
     if (node->out.size() > 1 && std::atoi(node->out.c_str() + 1) < 18)
         return Error{fmt::format("lobelia unwrap needs Node.js 18 or newer; \"node\" is {}",

@@ -236,6 +236,19 @@ std::size_t AliasTable::sample(Point2 p) const {
     return choose(std::min(static_cast<std::size_t>(p.a * static_cast<double>(size())), size() - 1), p.b);
 }
 
+AliasTable::Choice AliasTable::sample(double u) const {
+    const double scaled = u * static_cast<double>(size());
+    const std::size_t i = std::min(static_cast<std::size_t>(scaled), size() - 1);
+    const double within = scaled - static_cast<double>(i), threshold = threshold_[i];
+    const auto below_one = [](double v) { return std::clamp(v, 0.0, 1 - 0x1p-53); };
+    if (within < threshold) return {i, below_one(within / threshold)};
+    return {alias_[i], below_one((within - threshold) / (1 - threshold))};
+}
+
+double AliasTable::inverse(const Choice& choice) const {
+    return (static_cast<double>(choice.index) + choice.rest * threshold_[choice.index]) / static_cast<double>(size());
+}
+
 std::size_t AliasTable::choose(std::size_t i, double u) const { return u <= threshold_[i] ? i : alias_[i]; }
 
 }  // namespace lobelia

@@ -1,0 +1,108 @@
+// All light sources of a scene, and the choice of one for a point that wants light.
+// Shirley, Wang and Zimmerman 1996 (choosing lights); Veach 1997.
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "baker/environment_light.h"
+#include "baker/path_tracer.h"
+#include "baker/surface.h"
+
+namespace lobelia {
+
+/// A point that wants light, and the unit normal of the plane from below which none reaches it; (0, 0, 0): none does
+/// not.
+struct Vantage {
+    Vec3 position;
+    Vec3 normal;
+};
+
+/// One light source as it would reach a point if nothing stood between.
+struct LightSample {
+    Vec3 direction;      ///< unit, towards the source
+    float distance = 0;  ///< within which whatever stands hides it; infinite for the sky
+    Rgb irradiance;      ///< L / pdf, or that of a source without size over its probability; black: nothing comes
+    float pdf = 0;       ///< of the direction [1/sr]; 0 of a source without size
+};
+
+/// Radiance from a direction in which no surface stands, and the density with which `sample` finds it.
+struct SkyLight {
+    Rgb radiance;
+    float pdf = 0;
+};
+
+class Lights {
+  public:
+    /// `scene` and `surfaces` must outlive this.
+    Lights(const Scene& scene, const Surfaces& surfaces, const PathOptions& options);
+
+    [[nodiscard]] bool any() const { return !groups_.empty(); }
+    /// A source in proportion to what it might bring to the vantage, by its power and roughly its distance; then a
+    /// point on it.
+    [[nodiscard]] LightSample sample(const Vantage& at, float choice, Pair point) const;
+    /// Density [1/sr] with which `sample` finds the point of emissive triangle `emitter` at this distance, whose normal
+    /// has this cosine to the ray.
+    [[nodiscard]] float triangle_pdf(const Vantage& at, std::uint32_t emitter, float distance, float cosine) const;
+    [[nodiscard]] SkyLight sky(const Vantage& at, Vec3 direction) const;
+
+  private:
+    enum class Kind : std::uint8_t { environment, sun, triangle, punctual };
+    struct Source {
+        Kind kind = Kind::environment;
+        std::uint32_t index = 0;  ///< of the sun, the emissive triangle or the punctual light
+        float strength = 0;       ///< luminance of irradiance (far) or of intensity (near)
+        Vec3 centre;              ///< near: of its bounding sphere; far: direction towards it, or 0: all around
+        float radius = 0;         ///< near: of the sphere; far: sine of the angular radius
+        Vec3 front;               ///< normal of a one-sided triangle, or 0
+        float area = 0;           ///< of a triangle
+        std::uint32_t group = 0;
+        float share = 1;  ///< probability within its group
+    };
+    /// Sources that are chosen between together; each group is weighed for each vantage.
+    struct Group {
+        std::uint32_t first = 0, count = 0;  ///< its sources, which lie together
+        bool far = false;
+        float strength = 0;  ///< as of a source
+        Vec3 centre;
+        float radius = 0;
+        Vec3 front;                     ///< the common normal of one-sided triangles, or 0
+        float least = 0;                ///< the least offset along it from which any of them is seen
+        std::vector<AliasTable> table;  ///< over its sources, where there are several
+    };
+    /// A disc in the sky, or a parallel beam.
+    struct Sun {
+        Vec3 direction;  ///< towards it
+        Rgb irradiance;
+        Rgb radiance;        ///< of the disc
+        float flatness = 0;  ///< 1 - cosine of the angular radius; 0: a parallel beam
+        float disc_pdf = 0;  ///< uniform over the disc [1/sr]
+        std::uint32_t source = 0;
+    };
+    static constexpr std::size_t k_most_groups = 64;
+    using Weights = std::array<float, k_most_groups>;
+
+    void add_sky(const PathOptions& options);
+    void add_near();
+    void add_group(std::span<const Source> sources, bool far);
+    void split(std::vector<Source> sources);
+    [[nodiscard]] float mean_emission(std::uint32_t triangle) const;
+
+    [[nodiscard]] float weight(const Group& group, const Vantage& at) const;
+    float weigh(const Vantage& at, Weights& weights) const;
+    [[nodiscard]] SkyLight sky(const Weights& weights, float total, Vec3 direction) const;
+    [[nodiscard]] LightSample sample_triangle(const Source& source, float probability, const Vantage& at,
+                                              Pair point) const;
+    [[nodiscard]] LightSample sample_punctual(const PunctualLight& light, float probability, const Vantage& at) const;
+
+    const Scene* scene_;
+    const Surfaces* surfaces_;
+    bool aimed_at_;
+    std::optional<EnvironmentLight> environment_;
+    std::vector<Sun> suns_;
+    std::vector<Source> sources_;
+    std::vector<std::uint32_t> source_of_emitter_;
+    std::vector<Group> groups_;
+};
+
+}  // namespace lobelia
