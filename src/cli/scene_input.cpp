@@ -11,6 +11,7 @@
 #include "cli/common.h"
 #include "scene/check_scene.h"
 #include "scene/embedded.h"
+#include "scene/gltf_read.h"
 #include "scene/sky_light.h"
 
 namespace lobelia::cli {
@@ -66,8 +67,18 @@ Result<LoadedScene> read_or_make(const SceneOptions& options) {
         if (options.photometric) read.units = GltfReadOptions::Units::photometric;
         return read_gltf(options.path, read);
     }
-    return Error{
-        fmt::format("{}: no such file, and no embedded scene (known: {})", options.path, fmt::join(names, ", "))};
+    if (!std::filesystem::exists(options.path, code))
+        return Error{
+            fmt::format("{}: no such file, and no embedded scene (known: {})", options.path, fmt::join(names, ", "))};
+    GltfReadOptions read;
+    read.uv_set = options.uv_set;
+    if (options.photometric) read.units = GltfReadOptions::Units::photometric;
+    auto loaded = read_gltf(options.path, read);
+    if (!loaded) return loaded.error();
+    std::vector<std::string> warnings;
+    for (const auto& warning : loaded->warnings) warnings.push_back(options.path + ": " + warning);
+    return LoadedScene{std::move(loaded->scene), std::filesystem::path(options.path).filename().string(),
+                       std::move(warnings)};
 }
 
 Status set_file_environment(LoadedScene& scene, const std::string& path, const ReadOptions& read) {

@@ -3,10 +3,9 @@
 #include <numbers>
 
 #include "lobelia/colour.h"
-#include "lobelia/environment.h"
-#include "lobelia/sky.h"
 #include "scene/embedded.h"
 #include "scene/scene_builder.h"
+#include "scene/sky_light.h"
 
 namespace lobelia {
 namespace {
@@ -104,6 +103,12 @@ PatchOptions surface(std::uint32_t material, float density = 1) {
 void add_ground(SceneBuilder& builder, const Materials& m) {
     builder.begin_object("ground");
     builder.quad({-16, 0, 15}, {32, 0, 0}, {0, 0, -20}, surface(m.gravel, 0.3f));
+    // A clipped hedge around it hides the horizon.
+    builder.begin_object("hedge");
+    for (const auto& [low, high] :
+         {std::pair{Vec3{-16, 0, 14.2f}, Vec3{16, 2.4f, 15}}, std::pair{Vec3{-16, 0, -5}, Vec3{-15.2f, 2.4f, 14.2f}},
+          std::pair{Vec3{15.2f, 0, -5}, Vec3{16, 2.4f, 14.2f}}})
+        builder.box(low, high, faces(k_face_sides | k_face_top, m.leaves, 0.2f));
     builder.begin_object("steps");
     builder.box({-k_end, 0, 0.95f}, {k_end, 0.15f, 1.3f},
                 faces(k_face_top | k_face_front | k_face_left | k_face_right, m.stone));
@@ -129,6 +134,15 @@ void add_walls(SceneBuilder& builder, const Materials& m) {
     inner_face({-x, k_floor, k_back}, {2 * x, 0, 0});
     builder.box({-outer_x, 0, outer_z}, {outer_x, k_ceiling, k_back},
                 faces(k_face_back | k_face_left | k_face_right, m.plaster, k_outside));
+    // A ledge above the dado, and a bench before it.
+    builder.box({-x, k_dado, k_back}, {x, k_dado + 0.1f, k_back + 0.06f},
+                faces(k_face_top | k_face_bottom | k_face_front, m.stone));
+    builder.begin_object("bench");
+    builder.box({-3, k_floor + 0.38f, k_back}, {3, k_floor + 0.46f, k_back + 0.5f},
+                faces(k_face_all & ~unsigned{k_face_back}, m.stone));
+    for (const float foot : {-2.6f, 0.0f, 2.6f})
+        builder.box({foot - 0.12f, k_floor, k_back}, {foot + 0.12f, k_floor + 0.38f, k_back + 0.42f},
+                    faces(k_face_left | k_face_right | k_face_front, m.stone));
     builder.begin_object("left wall");
     inner_face({-x, k_floor, k_half_wall}, {0, 0, k_back - k_half_wall});
     builder.box({-outer_x, 0, k_back}, {-x, k_ceiling, k_half_wall},
@@ -339,25 +353,6 @@ void add_cypress(SceneBuilder& builder, const Materials& m, Vec3 foot, float hei
     builder.lathe(foot, profile, 12, surface(m.leaves, 0.25f));
 }
 
-void add_light(Scene& scene, const ColonnadeOptions& options) {
-    SkyOptions sky_options;
-    sky_options.sun_elevation = options.sun_elevation;
-    sky_options.sun_azimuth = options.sun_azimuth;
-    const SunDisc disc = sun_disc(sky_options);
-    PunctualLight sun;
-    sun.name = "sun";
-    sun.kind = PunctualLight::Kind::directional;
-    sun.intensity = disc.radiance * static_cast<float>(disc.solid_angle);
-    sun.direction = disc.direction * -1;
-    sun.angular_radius = static_cast<float>(k_sun_radius * k_pi / 180);
-    scene.lights.push_back(sun);
-
-    const Sky sky(sky_options);
-    const LatLong grid{2 * options.sky_height, options.sky_height};
-    scene.environment = Image(grid.width, grid.height);
-    for (std::size_t i = 0; i < grid.size(); ++i) scene.environment->pixels[i] = sky(grid.direction(i));
-}
-
 /// A camera at `eye` that looks at `target`.
 Camera look(const char* name, Vec3 eye, Vec3 target, float vertical_field_of_view) {
     const Vec3 z = normalize(eye - target), x = normalize(cross({0, 1, 0}, z)), y = cross(z, x);
@@ -384,12 +379,15 @@ Scene colonnade_scene(const ColonnadeOptions& options) {
     add_curtain(builder, {"ochre curtain", 2, -0.1f, 1.0f, 4, 2.3f, m.ochre});
     for (int i = 0; i < 4; ++i) add_pot(builder, m, {-4.5f + 3 * static_cast<float>(i), 0, 1.75f}, i + 1);
     constexpr std::array<Vec3, 6> k_trees{
-        {{-10.5f, 0, 11}, {-5.8f, 0, 12.2f}, {-1.2f, 0, 11.4f}, {3.4f, 0, 12}, {-9.6f, 0, 1.5f}, {-10.4f, 0, -2.6f}}};
+        {{-10.5f, 0, 11}, {-5.8f, 0, 12}, {-1.2f, 0, 11.4f}, {3.4f, 0, 11.8f}, {-9.6f, 0, 1.5f}, {-10.4f, 0, -2.6f}}};
     for (std::size_t i = 0; i < k_trees.size(); ++i)
         add_cypress(builder, m, k_trees[i], 4.4f + 0.5f * static_cast<float>(i * 2 % 3), static_cast<int>(i + 1));
     Scene scene = builder.finish({.grid = 512, .padding = 4});
-    add_light(scene, options);
-    scene.cameras.push_back(look("gallery", {5.75f, 2.0f, -3.0f}, {-2.4f, 1.85f, -0.55f}, 0.95f));
+    SkyOptions sky;
+    sky.sun_elevation = options.sun_elevation;
+    sky.sun_azimuth = options.sun_azimuth;
+    set_sky(scene, sky, options.sky_height);
+    scene.cameras.push_back(look("gallery", {5.7f, 1.95f, -2.75f}, {-2.4f, 1.72f, -0.65f}, 0.9f));
     scene.cameras.push_back(look("garden", {7.8f, 2.3f, 9.2f}, {-1.6f, 2.3f, -0.5f}, 0.66f));
     return scene;
 }

@@ -106,6 +106,10 @@ Status read_image_sources(Document& document, const nlohmann::json& root) {
         if (const auto uri = image.find("uri"); uri != image.end()) {
             if (!uri->is_string()) return document.error(fmt::format("images[{}].uri", i), "not a text");
             source.uri = uri->get<std::string>();
+            // Looked at even where nobody uses the image: other programs would open it.
+            if (!source.uri.starts_with("data:"))
+                if (const auto path = relative_path(source.uri); !path)
+                    return document.error(fmt::format("images[{}].uri", i), path.error().message);
         }
         if (source.buffer_view.has_value() != source.uri.empty())
             return document.error(fmt::format("images[{}]", i), "must have either a uri or a bufferView");
