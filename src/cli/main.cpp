@@ -24,6 +24,8 @@ and measures how wrong each choice is.
   lobelia reference room.hdr --latlong 64x32 -o exact.exr
   lobelia list --axes                      bases, encoders and evaluators
   lobelia study irradiance                 how good each irradiance formula is
+  lobelia scene cornell -o cornell.glb     a scene to bake
+  lobelia unwrap in.glb -o out.glb         lightmap UVs for a scene of yours
 
 lobelia -h tells more, lobelia VERB -h all of a verb's options.
 )";
