@@ -13,7 +13,7 @@ Guides make_guides(const Atlas& atlas, const TexelMap& map) {
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, map.texels.size(), 4096), [&](const auto& range) {
         for (std::size_t i = range.begin(); i != range.end(); ++i) {
             const CoveredTexel& texel = map.texels[i];
-            const SurfacePoint point = surface_of(atlas, map, i);
+            const TexelSurface point = surface_of(atlas, map, i);
             const std::size_t place = texel.y * atlas.width() + texel.x;
             guides.position[texel.page][place] = point.position;
             guides.normal[texel.page][place] = point.normal;

@@ -65,7 +65,7 @@ void PathTracer::direct(std::span<const PathStart> starts, std::span<const Vec3>
             ++scratch.rays;
             const std::uint32_t salt =
                 mix(mix(scratch.counters.mixed_keys[i], scratch.counters.samples[i]), 0xffffffffu);
-            if (!implementation_->rays.stopped(origin, light.direction, light.distance, salt))
+            if (!implementation_->rays.stopped(origin, light.direction, light.distance, salt, Backs::stop))
                 out[first + i] = {light.direction, light.irradiance, light.pdf};
         }
     });
@@ -79,6 +79,10 @@ void PathTracer::closest(std::span<const Ray> rays, std::span<Hit> out) const {
         if (hit.distance < std::numeric_limits<float>::infinity())
             out[i].back_face = dot(implementation_->surfaces.facet(hit.triangle).normal, rays[i].direction) > 0;
     }
+}
+
+bool PathTracer::stops(const Ray& ray) const {
+    return implementation_->rays.stopped(ray.origin, ray.direction, ray.farthest, 0, Backs::pass);
 }
 
 bool PathTracer::has_light() const { return implementation_->lights.any(); }

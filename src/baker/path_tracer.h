@@ -69,7 +69,8 @@ class PathTracer {
 
     /// One light source for each start (its direction is ignored), chosen in proportion to power and, roughly,
     /// distance; lights below the plane through the origin with `normal` are not chosen where normals are given (one
-    /// each, or none). Nothing where next_event is off.
+    /// each, or none). Nothing where next_event is off. As receivers may not see the backs of one-sided surfaces, these
+    /// hide the light.
     void direct(std::span<const PathStart> starts, std::span<const Vec3> normals, std::span<DirectLight> out,
                 Scratch& scratch) const;
 
@@ -86,6 +87,8 @@ class PathTracer {
         float farthest = 0;  ///< no hit beyond; infinite: anywhere
     };
     void closest(std::span<const Ray> rays, std::span<Hit> out) const;
+    /// Whether a surface stops light on the ray: backs of one-sided surfaces do not, whatever lies at the same place.
+    [[nodiscard]] bool stops(const Ray& ray) const;
 
     /// Whether there is any light at all: a source, or an environment that is not black.
     [[nodiscard]] bool has_light() const;

@@ -1,6 +1,9 @@
 // Interpolation on triangles.
 #include "baker/texel_points.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace lobelia {
 
 Vec3 position_at(const World& world, std::size_t triangle, const std::array<float, 3>& weights) {
@@ -21,7 +24,20 @@ PagePoint anchor_of(const PageTriangle& triangle, int x, int y) {
     return triangle.contains(centre) ? centre : triangle.part_in(x, y).nearest(centre);
 }
 
-SurfacePoint surface_of(const Atlas& atlas, const TexelMap& map, std::size_t i) {
+float texel_width(const Atlas& atlas, std::size_t triangle) {
+    // Position and page are linear in the same two weights: d position / d page = edges * (page edges)^-1.
+    const World& world = atlas.world();
+    const auto& [a, b, c] = world.triangles[triangle];
+    const Vec3 e1 = world.positions[b] - world.positions[a], e2 = world.positions[c] - world.positions[a];
+    const auto page = atlas.texel_triangle(triangle);
+    const Vec2 f1 = page[1] - page[0], f2 = page[2] - page[0];
+    const float determinant = f1.x * f2.y - f1.y * f2.x;
+    const float along_x = length(e1 * f2.y - e2 * f1.y), along_y = length(e2 * f1.x - e1 * f2.x);
+    const float width = std::max(along_x, along_y) / std::abs(determinant);
+    return std::isfinite(width) ? width : 0;
+}
+
+TexelSurface surface_of(const Atlas& atlas, const TexelMap& map, std::size_t i) {
     const std::uint32_t t = map.triangle[i];
     const PageTriangle triangle(atlas.texel_triangle(t));
     const auto weights =

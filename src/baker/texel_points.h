@@ -12,4 +12,7 @@ namespace lobelia {
 /// The point that stands for texel (x, y), which the triangle owns: its centre, or the covered point nearest to that.
 [[nodiscard]] PagePoint anchor_of(const PageTriangle& triangle, int x, int y);
 
+/// How far a step of one texel goes in the world [m], along the page's axis where that is more.
+[[nodiscard]] float texel_width(const Atlas& atlas, std::size_t triangle);
+
 }  // namespace lobelia

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 
+#include "baker/push_out.h"
 #include "baker/texel_points.h"
 
 namespace lobelia {
@@ -23,21 +24,24 @@ class TileTexels {
     TileTexels(const Atlas& atlas, const TexelMap& map, const PathTracer& tracer)
         : atlas_(atlas), map_(map), tracer_(tracer) {}
 
-    void make(std::size_t begin, std::size_t end, Texel* out) {
-        find_holders(begin, end);
-        for (std::size_t i = begin; i < end; ++i) out[i - begin] = texel(i, holders_[i - begin]);
+    void make(std::size_t begin, Switch push, std::span<Texel> out) {
+        find_holders(begin, begin + out.size());
+        reach_.resize(out.size());
+        for (std::size_t i = 0; i < out.size(); ++i) out[i] = texel(begin + i, holders_[i], reach_[i]);
+        if (push == Switch::on) push_out(tracer_, reach_, out);
     }
 
   private:
     void find_holders(std::size_t begin, std::size_t end);
-    [[nodiscard]] Texel texel(std::size_t i, const Holders& holders) const;
-    [[nodiscard]] Vec3 lifted(std::size_t t, PagePoint p) const;
+    [[nodiscard]] Texel texel(std::size_t i, const Holders& holders, TexelReach& reach) const;
+    void add_position(std::size_t t, PagePoint p, Texel& texel, TexelReach& reach) const;
 
     const Atlas& atlas_;
     const TexelMap& map_;
     const PathTracer& tracer_;
     std::array<std::uint32_t, k_tile * k_tile> place_;  ///< in holders_ of each of the tile's texels
     std::vector<Holders> holders_;
+    std::vector<TexelReach> reach_;
 };
 
 void TileTexels::find_holders(std::size_t begin, std::size_t end) {
@@ -66,13 +70,16 @@ void TileTexels::find_holders(std::size_t begin, std::size_t end) {
     }
 }
 
-Vec3 TileTexels::lifted(std::size_t t, PagePoint p) const {
+void TileTexels::add_position(std::size_t t, PagePoint p, Texel& texel, TexelReach& reach) const {
     const World& world = atlas_.world();
     const Vec3 on_surface = position_at(world, t, PageTriangle(atlas_.texel_triangle(t)).weights(p));
-    return on_surface + world.face_normal(t) * tracer_.lift(on_surface);
+    const Vec3 face = world.face_normal(t), normal = dot(face, face) > 0 ? face : texel.face_normal;
+    texel.positions[texel.position_count] = on_surface + normal * tracer_.lift(on_surface);
+    reach.normals[texel.position_count] = normal;
+    ++texel.position_count;
 }
 
-Texel TileTexels::texel(std::size_t i, const Holders& holders) const {
+Texel TileTexels::texel(std::size_t i, const Holders& holders, TexelReach& reach) const {
     const World& world = atlas_.world();
     const std::uint32_t t = map_.triangle[i];
     const int x = static_cast<int>(map_.texels[i].x), y = static_cast<int>(map_.texels[i].y);
@@ -88,14 +95,13 @@ Texel TileTexels::texel(std::size_t i, const Holders& holders) const {
     result.chart = atlas_.chart_of_triangle()[t];
 
     // Where its samples start: the points of the pattern that its chart covers, or else the middle of what is covered.
+    reach.width = texel_width(atlas_, t);
     for (std::size_t k = 0; k < k_most_positions; ++k)
-        if (holders[k] != k_nobody)
-            result.positions[result.position_count++] = lifted(holders[k], {x + k_pattern[k].x, y + k_pattern[k].y});
+        if (holders[k] != k_nobody) add_position(holders[k], {x + k_pattern[k].x, y + k_pattern[k].y}, result, reach);
     if (result.position_count == 0) {
         const PageTriangle triangle(atlas_.texel_triangle(t));
         const PagePoint centre{x + 0.5, y + 0.5};
-        const PagePoint middle = triangle.contains(centre) ? centre : triangle.part_in(x, y).centroid();
-        result.positions[result.position_count++] = lifted(t, middle);
+        add_position(t, triangle.contains(centre) ? centre : triangle.part_in(x, y).centroid(), result, reach);
     }
     return result;
 }
@@ -103,15 +109,15 @@ Texel TileTexels::texel(std::size_t i, const Holders& holders) const {
 }  // namespace
 
 void make_texels(const Atlas& atlas, const TexelMap& map, std::size_t begin, std::size_t end, const PathTracer& tracer,
-                 Switch /*push_out*/, std::vector<Texel>& out) {
+                 Switch push_out, std::vector<Texel>& out) {
     assert(begin <= end && end <= map.texels.size());
     out.resize(end - begin);
     TileTexels tile(atlas, map, tracer);
     for (std::size_t i = begin; i < end;) {
         const auto next = std::upper_bound(map.first_of_tile.begin(), map.first_of_tile.end(), i);
-        const std::size_t tile_end = std::min<std::size_t>(*next, end);
-        tile.make(i, tile_end, out.data() + (i - begin));
-        i = tile_end;
+        const std::size_t count = std::min<std::size_t>(*next, end) - i;
+        tile.make(i, push_out, std::span(out).subspan(i - begin, count));
+        i += count;
     }
 }
 

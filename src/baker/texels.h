@@ -28,11 +28,11 @@ void make_texels(const Atlas& atlas, const TexelMap& map, std::size_t begin, std
                  Switch push_out, std::vector<Texel>& out);
 
 /// The surface at the centre of texel i of the map, or at the covered point nearest to it.
-struct SurfacePoint {
+struct TexelSurface {
     Vec3 position;
     Vec3 normal;  ///< unit, smooth
 };
-[[nodiscard]] SurfacePoint surface_of(const Atlas& atlas, const TexelMap& map, std::size_t i);
+[[nodiscard]] TexelSurface surface_of(const Atlas& atlas, const TexelMap& map, std::size_t i);
 
 /// Rows x, y, z: z is `normal`, x and y depend on it alone (Duff et al. 2017), so that charts that meet agree on them.
 [[nodiscard]] Rotation tangent_from_world(Vec3 normal);

@@ -55,11 +55,16 @@ Result<LoadedScene> read_or_make(const SceneOptions& options) {
     // A name of the list is an embedded scene, unless there is a file of that name.
     std::error_code code;
     const auto names = embedded_scene_names();
-    const bool embedded = std::find(names.begin(), names.end(), options.path) != names.end();
-    if (embedded && !std::filesystem::is_regular_file(options.path, code)) {
-        auto scene = embedded_scene(options.path);
+    auto scene = embedded_scene(options.path);
+    if (scene && !std::filesystem::is_regular_file(options.path, code)) {
         if (!scene) return scene.error();
-        return LoadedScene{*std::move(scene), options.path, {}};
+        return LoadedScene{*std::move(scene), {}};
+    }
+    if (std::filesystem::exists(options.path, code)) {
+        GltfReadOptions read;
+        read.uv_set = options.uv_set;
+        if (options.photometric) read.units = GltfReadOptions::Units::photometric;
+        return read_gltf(options.path, read);
     }
     return Error{
         fmt::format("{}: no such file, and no embedded scene (known: {})", options.path, fmt::join(names, ", "))};

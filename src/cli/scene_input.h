@@ -7,8 +7,7 @@
 #include <vector>
 
 #include "io/read_image.h"
-#include "lobelia/result.h"
-#include "scene/scene.h"
+#include "scene/gltf_read.h"
 
 namespace lobelia::cli {
 
@@ -42,12 +41,6 @@ void visit_scene_fields(Field& field, Options& options) {
     field("sun_azimuth", options.sun_azimuth);
     field("turbidity", options.turbidity);
 }
-
-struct LoadedScene {
-    Scene scene;
-    std::string name;  ///< for titles: of the file without its folder, or of the embedded scene
-    std::vector<std::string> warnings;
-};
 
 /// Makes or reads the scene and sets its environment; it has passed check_scene. Warnings are returned, not printed.
 [[nodiscard]] Result<LoadedScene> load_scene(const SceneOptions& options);

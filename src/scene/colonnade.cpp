@@ -177,9 +177,9 @@ void add_arcade(SceneBuilder& builder, const Materials& m) {
             const std::size_t i = front ? column : edge.x.size() - 1 - column;
             column = (column + 1) % edge.x.size();
             const float y = edge.y[i] + v * (k_ceiling - edge.y[i]);
-            return SurfacePoint{{edge.x[i], y, front ? k_half_wall : -k_half_wall},
-                                {0, 0, front ? 1.0f : -1.0f},
-                                {u * face.size.x, y - k_spring}};
+            return PatchPoint{{edge.x[i], y, front ? k_half_wall : -k_half_wall},
+                              {0, 0, front ? 1.0f : -1.0f},
+                              {u * face.size.x, y - k_spring}};
         });
     }
 
@@ -192,9 +192,9 @@ void add_arcade(SceneBuilder& builder, const Materials& m) {
         builder.patch(soffit, [&](float u, float v) {
             const double angle = k_pi * static_cast<double>(u);
             const auto c = static_cast<float>(std::cos(angle)), s = static_cast<float>(std::sin(angle));
-            return SurfacePoint{{centre - k_arch_radius * c, k_spring + k_arch_radius * s, k_half_wall * (2 * v - 1)},
-                                {c, -s, 0},
-                                {u * soffit.size.x, v * soffit.size.y}};
+            return PatchPoint{{centre - k_arch_radius * c, k_spring + k_arch_radius * s, k_half_wall * (2 * v - 1)},
+                              {c, -s, 0},
+                              {u * soffit.size.x, v * soffit.size.y}};
         });
     }
 }
@@ -285,7 +285,7 @@ void add_curtain(SceneBuilder& builder, const Curtain& curtain) {
     builder.patch(options, [&](float u, float v) {
         constexpr float k_step = 1e-3f;
         const Vec3 along = at(u + k_step, v) - at(u - k_step, v), up = at(u, v + k_step) - at(u, v - k_step);
-        return SurfacePoint{at(u, v), normalize(cross(along, up)), {u * width, v * (k_rod - k_hem)}};
+        return PatchPoint{at(u, v), normalize(cross(along, up)), {u * width, v * (k_rod - k_hem)}};
     });
 }
 
@@ -300,7 +300,7 @@ void add_rods(SceneBuilder& builder, const Materials& m) {
         builder.patch(options, [&](float u, float v) {
             const double angle = u == 1 ? 0 : 2 * k_pi * static_cast<double>(u);
             const Vec3 out{0, static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle))};
-            return SurfacePoint{Vec3{left + k_length * v, k_spring - 0.2f, 0} + out * k_radius, out, {u, v}};
+            return PatchPoint{Vec3{left + k_length * v, k_spring - 0.2f, 0} + out * k_radius, out, {u, v}};
         });
     }
 }

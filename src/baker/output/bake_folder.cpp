@@ -23,6 +23,7 @@ using Packings = std::vector<std::shared_ptr<const TexturePacking>>;
 
 /// The packings asked for, of the codec's basis.
 Result<Packings> chosen_packings(const BakeOptions& bake, const WriteBakeOptions& options) {
+    if (bake.codec.empty()) return Packings();
     const auto codec = make_codec(bake.codec);
     if (!codec) return codec.error();
     Packings all = codec->basis().packings();

@@ -26,6 +26,8 @@ void read_scene(const JsonPlace& scene, Manifest& m) {
 void read_codec(const JsonPlace& codec, Manifest& m) {
     m.options.codec = codec.at("name").text();
     m.options.frame = static_cast<Frame>(codec.at("frame").one_of(k_frame_names));
+    // No codec: irradiance at the shading normal alone.
+    if (m.options.codec.empty()) return;
     const auto name = parse_codec_name(m.options.codec);
     if (!name) codec.at("name").refuse(name.error().message);
     const auto basis = make_basis(name->basis);

@@ -66,8 +66,7 @@ Manifest make_manifest(const Scene& scene, const Atlas& atlas, const BakeOptions
     m.program = k_version;
     m.scene_name = scene.name;
     m.scene_hash = scene_hash(scene);
-    const auto codec = make_codec(options.codec);
-    m.coefficients = codec ? codec->basis().size() : 0;
+    m.coefficients = options.codec.empty() ? 0 : make_codec(options.codec).value().basis().size();
     m.width = atlas.width();
     m.height = atlas.height();
     for (std::size_t i = 0; i < scene.objects.size(); ++i)
@@ -78,8 +77,7 @@ Manifest make_manifest(const Scene& scene, const Atlas& atlas, const BakeOptions
 }
 
 std::string to_json_text(const Manifest& m) {
-    const auto codec = parse_codec_name(m.options.codec);
-    const CodecName name = codec ? *codec : CodecName{};
+    const CodecName name = m.options.codec.empty() ? CodecName{} : parse_codec_name(m.options.codec).value();
     ordered_json pages = ordered_json::array(), objects = ordered_json::array();
     for (const auto& page : m.pages) pages.push_back(to_json(page));
     for (const auto& object : m.objects) objects.push_back(to_json(object, m));
