@@ -1,9 +1,6 @@
 // Small bakes with every kind of content, for the tests of what a bake leaves behind.
 #pragma once
 
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <random>
 
 #include "baker/output/bake_folder.h"
@@ -63,34 +60,5 @@ inline Bake some_bake(const std::string& codec, Frame frame = Frame::world) {
     bake.probes = std::move(probes);
     return bake;
 }
-
-inline std::string contents(const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-}
-
-inline void overwrite(const std::filesystem::path& path, const std::string& text) {
-    std::ofstream(path, std::ios::binary) << text;
-}
-
-/// An empty folder of one test, removed with it.
-class TestFolder {
-  public:
-    explicit TestFolder(const std::string& name) : path_(std::filesystem::temp_directory_path() / name) {
-        std::filesystem::remove_all(path_);
-        std::filesystem::create_directories(path_);
-    }
-    ~TestFolder() { std::filesystem::remove_all(path_); }
-    TestFolder(const TestFolder&) = delete;
-    TestFolder& operator=(const TestFolder&) = delete;
-    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-    [[nodiscard]] std::size_t entries() const {
-        return static_cast<std::size_t>(
-            std::distance(std::filesystem::directory_iterator(path_), std::filesystem::directory_iterator()));
-    }
-
-  private:
-    std::filesystem::path path_;
-};
 
 }  // namespace lobelia::test

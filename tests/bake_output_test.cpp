@@ -1,10 +1,10 @@
 // What a bake leaves behind reads back as it was, and nothing else is taken for it.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include "bake_files.h"
 #include "baker/output/page_files.h"
 #include "baker/output/probe_files.h"
+#include "folders.h"
 
 namespace lobelia {
 namespace {
@@ -15,8 +15,7 @@ using test::some_bake;
 class BakeOutput : public ::testing::Test {
   protected:
     BakeOutput()
-        : folder_("lobelia-bake-output-" + std::to_string(::getpid()) + "-" +
-                  ::testing::UnitTest::GetInstance()->current_test_info()->name()) {}
+        : folder_(std::string("bake-output-") + ::testing::UnitTest::GetInstance()->current_test_info()->name()) {}
     [[nodiscard]] fs::path path() const { return folder_.path() / "bake"; }
     [[nodiscard]] std::string message() const {
         const auto bake = read_bake(path());

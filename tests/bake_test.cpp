@@ -212,9 +212,11 @@ TEST(Bake, RefusesCheckpointsThatAreNotItsOwn) {
         bytes.assign(std::istreambuf_iterator<char>(in), {});
     }
     const auto write = [&](const std::string& content) { std::ofstream(file, std::ios::binary) << content; };
-    for (const std::size_t size : {std::size_t{0}, std::size_t{7}, std::size_t{100}, std::size_t{256}, bytes.size() - 1}) {
+    for (const std::size_t size :
+         {std::size_t{0}, std::size_t{7}, std::size_t{100}, std::size_t{256}, bytes.size() - 1}) {
         write(bytes.substr(0, size));
-        EXPECT_NE(run(closed_box(), options, Baker::Start::resume).find("region-0000.state"), std::string::npos) << size;
+        EXPECT_NE(run(closed_box(), options, Baker::Start::resume).find("region-0000.state"), std::string::npos)
+            << size;
     }
     for (const std::size_t place : {0u, 9u, 17u, 33u, 49u, 300u, 5000u}) {
         std::string damaged = bytes;

@@ -34,9 +34,15 @@ class PlainPathTracer {
         // A uniform direction of the hemisphere, density 1 / (2 pi).
         Vec3d direction = uniform_direction();
         if (dot(direction, normal) < 0) direction = direction * -1;
-        Vec3d sum = radiance(position, direction) * (dot(direction, normal) * 2 * k_pi);
+        // Receivers see no light past the backs of one-sided surfaces.
+        backs_stop_ = true;
+        Vec3d sum;
         for (const PunctualLight& light : scene_.lights) sum = sum + punctual(light, position, normal);
-        return sum;
+        const Hit first = first_stop(position, direction, INFINITY);
+        backs_stop_ = false;
+        const bool back =
+            first.distance < INFINITY && !material(first).double_sided && dot(face(first.triangle), direction) > 0;
+        return back ? sum : sum + radiance(position, direction, first) * (dot(direction, normal) * 2 * k_pi);
     }
 
   private:
@@ -80,7 +86,7 @@ class PlainPathTracer {
     }
     bool stops(const Hit& hit, Vec3d direction) {
         const Material& m = material(hit);
-        if (!m.double_sided && dot(face(hit.triangle), direction) > 0) return false;
+        if (!backs_stop_ && !m.double_sided && dot(face(hit.triangle), direction) > 0) return false;
         if (m.alpha_mode == Material::Alpha::opaque) return true;
         double alpha = m.alpha * color(hit, 3);
         if (m.base_color_texture) alpha *= texture(*m.base_color_texture, hit, 3, false);
@@ -200,11 +206,11 @@ class PlainPathTracer {
         return metal * metallic + dielectric * (1 - metallic);
     }
 
-    /// Radiance that arrives from `direction`.
-    Vec3d radiance(Vec3d origin, Vec3d direction) {
+    /// Radiance that arrives from `direction`, where the path first meets `hit`.
+    Vec3d radiance(Vec3d origin, Vec3d direction, Hit hit) {
         Vec3d sum, throughput{1, 1, 1};
         for (int depth = 0;; ++depth) {
-            const Hit hit = first_stop(origin, direction, INFINITY);
+            if (depth > 0) hit = first_stop(origin, direction, INFINITY);
             if (hit.distance == INFINITY) return sum + throughput * sky(direction);
             sum = sum + throughput * emission(hit);
             if (depth == bounces_) return sum;
@@ -237,6 +243,7 @@ class PlainPathTracer {
     int bounces_;
     std::mt19937 generator_;
     Vec3d last_direction_;
+    bool backs_stop_ = false;
 };
 
 }  // namespace lobelia::test

@@ -41,7 +41,7 @@ std::vector<std::uint8_t> bytes_of_base64(const std::string& text) {
 }
 
 std::vector<double> values_of(const Picture& picture) {
-    const auto bytes = bytes_of_base64(picture.base64_half);
+    const auto bytes = bytes_of_base64(picture.data);
     std::vector<double> values;
     for (std::size_t i = 0; i + 1 < bytes.size(); i += 2)
         values.push_back(value_of_half(static_cast<std::uint16_t>(bytes[i] | bytes[i + 1] << 8)));
@@ -100,7 +100,7 @@ TEST(Picture, PlanesGiveWhatPixelsGive) {
     Colours colours(pixels.size());
     for (std::size_t i = 0; i < pixels.size(); ++i) set_entry(colours.view(), i, pixels[i]);
     const Picture from_planes = encode_picture(ColourView(colours), 3, 2), from_pixels = encode_picture(pixels, 3, 2);
-    EXPECT_EQ(from_planes.base64_half, from_pixels.base64_half);
+    EXPECT_EQ(from_planes.data, from_pixels.data);
     EXPECT_EQ(from_planes.width, 3u);
     EXPECT_EQ(from_planes.height, 2u);
 }
@@ -172,7 +172,7 @@ TEST(ReportPage, NoNameEndsItsScriptElement) {
     EXPECT_EQ(html.find("alert(1)</script>"), std::string::npos);
     EXPECT_EQ(nlohmann::json::parse(script_element(html, "report-data")), small_report(name));
     const auto parsed = nlohmann::json::parse(script_element(html, "picture-data"));
-    EXPECT_EQ(parsed["radiance"][name]["half"], pictures.radiance[name].base64_half);
+    EXPECT_EQ(parsed["radiance"][name]["half"], pictures.radiance[name].data);
     EXPECT_EQ(parsed["references"][name]["irradiance_over_pi"]["width"], 1);
     EXPECT_TRUE(parsed["irradiance_over_pi"].empty());
 }

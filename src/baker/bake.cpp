@@ -78,6 +78,7 @@ struct Baker::Implementation {
         std::uint64_t passes_before = 0, passes_all = 0;
         std::uint64_t tiles_done = 0, tiles_all = 0;
         std::uint64_t rays = 0;
+        double error = 0;
         std::mutex mutex;
         Clock::time_point shown = start;
     };
@@ -103,7 +104,7 @@ struct Baker::Implementation {
     void run_pass(std::span<const Site> sites, std::span<const std::uint32_t> first_of_tile, RegionStates& states,
                   std::uint32_t pass, Run& run) const;
     void report(Run& run, std::uint32_t pass) const;
-    void finish_statistics();
+    [[nodiscard]] double error_of(const RegionStates& states) const;
 };
 
 std::vector<Site> Baker::Implementation::make_sites(std::span<const std::uint32_t> texels) const {
@@ -124,7 +125,7 @@ std::vector<Site> Baker::Implementation::make_sites(std::span<const std::uint32_
 }
 
 Result<RegionStates> Baker::Implementation::states_of(std::size_t region, std::span<const std::uint32_t> texels,
-                                                     Start start) {
+                                                      Start start) {
     RegionStates fresh(texels.size(), layout->floats());
     fresh.header.bake = hash;
     fresh.header.texels = hash_of_texels(texels);
@@ -156,7 +157,7 @@ Result<RegionStates> Baker::Implementation::states_of(std::size_t region, std::s
 }
 
 void Baker::Implementation::run_pass(std::span<const Site> sites, std::span<const std::uint32_t> first_of_tile,
-                                    RegionStates& states, std::uint32_t pass, Run& run) const {
+                                     RegionStates& states, std::uint32_t pass, Run& run) const {
     const PassOptions pass_of = pass_options(pass);
     tbb::enumerable_thread_specific<SiteWorker> workers([&] { return SiteWorker(*tracer); });
     tbb::parallel_for(std::size_t{0}, first_of_tile.size() - 1, [&](std::size_t tile) {
@@ -185,9 +186,24 @@ void Baker::Implementation::report(Run& run, std::uint32_t pass) const {
         static_cast<double>(run.tiles_done) / static_cast<double>(std::max<std::uint64_t>(1, run.tiles_all));
     progress.rays_per_second = static_cast<double>(run.rays) / std::max(1e-3, seconds);
     progress.seconds_left = progress.done > 0 ? seconds * (1 / progress.done - 1) : 0;
+    progress.error = run.error;
     progress.pass = pass + 1 - plan.first_pass;
     progress.passes = plan.passes();
     run.sink(progress);
+}
+
+/// RMS of the standard errors over the mean of E, as the statistics have it in the end.
+double Baker::Implementation::error_of(const RegionStates& states) const {
+    double squared = 0, mean = 0, count = 0;
+    for (std::size_t i = 0; i < states.header.sites; ++i) {
+        const auto state = states.states().subspan(i * layout->floats(), layout->floats());
+        const SiteSummary is = summary(layout->record(state), options.samples_per_pass);
+        if (is.validity < 0.5f || !std::isfinite(is.error)) continue;
+        squared += static_cast<double>(is.error) * is.error;
+        mean += luminance(is.irradiance);
+        count += 1;
+    }
+    return mean > 0 ? std::sqrt(squared / count) / (mean / count) : 0;
 }
 
 Status Baker::Implementation::run_region(std::size_t region, Start start, Run& run) {
@@ -212,6 +228,7 @@ Status Baker::Implementation::run_region(std::size_t region, Start start, Run& r
         const auto pass_start = Clock::now();
         run_pass(sites, first_of_tile, states, states.header.end_pass, run);
         if (run.stop) return Error{"stopped"};
+        if (run.sink) run.error = error_of(states);
         ++states.header.end_pass;
         states.header.seconds += seconds_since(pass_start);
         if (options.checkpoint.empty()) continue;

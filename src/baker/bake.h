@@ -65,6 +65,7 @@ struct BakeProgress {
     double done = 0;  ///< of all passes of all regions, in [0, 1]
     double rays_per_second = 0;
     double seconds_left = 0;
+    double error = 0;  ///< mean_error of the region after its last pass; 0: not known yet
     std::uint32_t pass = 0, passes = 0;
 };
 using BakeProgressSink = std::function<void(const BakeProgress&)>;

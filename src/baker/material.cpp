@@ -80,6 +80,10 @@ Reflectance make_reflectance(const Material& material, Rgb base, float metallic,
     return s;
 }
 
+Rgb base_albedo(const Reflectance& s, Vec3 wo, Vec3 wi) {
+    return s.has_layer ? s.diffuse * left(s, dot(wi, normalize(wo + wi))) : s.diffuse;
+}
+
 Rgb reflected(const Reflectance& s, Vec3 wo, Vec3 wi) {
     if (wi.z <= 0 || wo.z <= 0) return {};
     if (!s.has_layer) return s.diffuse * (wi.z * k_over_pi);

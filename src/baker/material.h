@@ -1,4 +1,5 @@
-// How a surface reflects: glTF's metallic-roughness model, as diffuse reflection under a GGX layer.
+// How a surface reflects: glTF's metallic-roughness model, as diffuse reflection under a GGX layer. The model is taken
+// as it is specified: at grazing angles base and layer may together reflect up to a third more than arrives.
 // Khronos 2021 (the model); Walter et al. 2007, Heitz 2014 (GGX); Heitz 2018 (visible normals); Schlick 1994.
 #pragma once
 
@@ -39,6 +40,8 @@ struct Scattered {
 /// selects the layer or the base.
 [[nodiscard]] Scattered scatter(const Reflectance& surface, Vec3 wo, Pair point, float choice);
 [[nodiscard]] float scatter_pdf(const Reflectance& surface, Vec3 wo, Vec3 wi);
+/// Albedo of the base under the layer, for light from wi: the base's part of reflected() is this times cosine over pi.
+[[nodiscard]] Rgb base_albedo(const Reflectance& surface, Vec3 wo, Vec3 wi);
 /// The reflectance distribution [1/sr], times the cosine of wi.
 [[nodiscard]] Rgb reflected(const Reflectance& surface, Vec3 wo, Vec3 wi);
 

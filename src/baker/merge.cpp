@@ -125,10 +125,24 @@ class Merger {
 Status merge_shards(const Baker& bake, std::span<const fs::path> checkpoints) {
     const auto files = region_files(checkpoints);
     if (!files) return files.error();
+    const fs::path& folder = bake.options().checkpoint;
+    std::error_code code;
+    if (fs::exists(region_file(folder, 0), code))
+        return Error{folder.string() + ": holds the states of a bake already; merge into another folder"};
+    const bool made_out = fs::create_directory(folder.parent_path(), code), made = fs::create_directory(folder, code);
+
     Merger merger(bake);
+    Status status = Done{};
+    for (std::size_t region = 0; region < bake.plan().regions.size() && status; ++region)
+        status = merger.merge_region(region, *files);
+    if (status) return status;
+
+    // Leave nothing of a merge that failed.
     for (std::size_t region = 0; region < bake.plan().regions.size(); ++region)
-        if (auto status = merger.merge_region(region, *files); !status) return status;
-    return Done{};
+        fs::remove(region_file(folder, region), code);
+    if (made) fs::remove(folder, code);
+    if (made_out) fs::remove(folder.parent_path(), code);
+    return status;
 }
 
 }  // namespace lobelia

@@ -69,7 +69,8 @@ class PathTracer {
 
     /// One light source for each start (its direction is ignored), chosen in proportion to power and, roughly,
     /// distance; lights below the plane through the origin with `normal` are not chosen where normals are given (one
-    /// each, or none). Nothing where next_event is off.
+    /// each, or none). Nothing where next_event is off. As receivers may not see the backs of one-sided surfaces, these
+    /// hide the light.
     void direct(std::span<const PathStart> starts, std::span<const Vec3> normals, std::span<DirectLight> out,
                 Scratch& scratch) const;
 

@@ -98,7 +98,9 @@ class ProbeBaker {
         std::int32_t size;
     };
 
-    static Place moved(Place p, std::int32_t x, std::int32_t y, std::int32_t z) { return {p[0] + x, p[1] + y, p[2] + z}; }
+    static Place moved(Place p, std::int32_t x, std::int32_t y, std::int32_t z) {
+        return {p[0] + x, p[1] + y, p[2] + z};
+    }
     static Place corner_of(Place cell, std::int32_t size, unsigned k) {
         return moved(cell, (k & 1) != 0 ? size : 0, (k & 2) != 0 ? size : 0, (k & 4) != 0 ? size : 0);
     }
@@ -113,9 +115,7 @@ class ProbeBaker {
             for (unsigned k = 0; k < 8; ++k) result.push_back(corner_of(cell, half, k));
         return result;
     }
-    static std::vector<Place> corners(std::span<const Place> cells, std::int32_t size) {
-        return children(cells, size);
-    }
+    static std::vector<Place> corners(std::span<const Place> cells, std::int32_t size) { return children(cells, size); }
 
     [[nodiscard]] Vec3 position_of(Place p) const {
         return low_ + Vec3{static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])} * step_;
@@ -209,8 +209,11 @@ Status ProbeBaker::bake(std::span<const Place> wanted, int level, const BakeProg
                                 std::span(coefficients_).subspan((first + i) * n, n));
         ++done;
         if (!progress || !mutex.try_lock()) return;
-        progress({static_cast<double>(done) / static_cast<double>(count), 0, 0, static_cast<std::uint32_t>(level) + 1,
-                  static_cast<std::uint32_t>(options_.levels) + 1});
+        BakeProgress is;
+        is.done = static_cast<double>(done) / static_cast<double>(count);
+        is.pass = static_cast<std::uint32_t>(level) + 1;
+        is.passes = static_cast<std::uint32_t>(options_.levels) + 1;
+        progress(is);
         mutex.unlock();
     });
     if (stop_) return Error{"stopped"};
@@ -220,10 +223,10 @@ Status ProbeBaker::bake(std::span<const Place> wanted, int level, const BakeProg
 std::array<Rgb, 6> ProbeBaker::irradiances(std::uint32_t probe) const {
     Directions normals(6);
     for (std::size_t axis = 0; axis < 3; ++axis)
-        for (std::size_t sign = 0; sign < 2; ++sign)
-            normals.channel(axis)[2 * axis + sign] = sign == 0 ? 1.0f : -1.0f;
+        for (std::size_t sign = 0; sign < 2; ++sign) normals.channel(axis)[2 * axis + sign] = sign == 0 ? 1.0f : -1.0f;
     Colours out(6);
-    codec_.irradiance(std::span(coefficients_).subspan(probe * codec_.basis().size(), codec_.basis().size()), normals, out);
+    codec_.irradiance(std::span(coefficients_).subspan(probe * codec_.basis().size(), codec_.basis().size()), normals,
+                      out);
     std::array<Rgb, 6> result;
     for (std::size_t i = 0; i < 6; ++i) result[i] = colour_at(out, i);
     return result;
@@ -300,8 +303,8 @@ Status check(const ProbeOptions& options, const World& world) {
     double probes = 1;
     for (const std::int32_t n : cells) probes *= n + 1.0;
     if (probes > static_cast<double>(options.most_probes))
-        return Error{fmt::format("--probe-spacing: {} would take {} x {} x {} probes; at most {} are made", options.spacing,
-                                 cells[0] + 1, cells[1] + 1, cells[2] + 1, options.most_probes)};
+        return Error{fmt::format("--probe-spacing: {} would take {} x {} x {} probes; at most {} are made",
+                                 options.spacing, cells[0] + 1, cells[1] + 1, cells[2] + 1, options.most_probes)};
     return Done{};
 }
 

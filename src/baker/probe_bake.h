@@ -10,13 +10,13 @@
 namespace lobelia {
 
 struct ProbeOptions {
-    double spacing = 0;                   ///< of the coarsest grid [m]; 0: no probes
+    double spacing = 0;                      ///< of the coarsest grid [m]; 0: no probes
     std::optional<std::array<Vec3, 2>> box;  ///< lowest and highest corner; none: the box around the scene
     std::string codec = "sh2/moments/convolution";
-    int levels = 0;                       ///< how often a cell may be divided in eight
-    double tolerance = 0.15;              ///< a cell is divided where the irradiance in its middle is off by this share
-    std::uint32_t samples = 1024;         ///< for each probe
-    std::size_t most_probes = 1u << 20;   ///< more are an error
+    int levels = 0;                      ///< how often a cell may be divided in eight
+    double tolerance = 0.15;             ///< a cell is divided where the irradiance in its middle is off by this share
+    std::uint32_t samples = 1024;        ///< for each probe
+    std::size_t most_probes = 1u << 20;  ///< more are an error
 };
 
 /// An error where the codec does not suit or there would be too many probes.

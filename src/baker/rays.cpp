@@ -65,6 +65,7 @@ struct FilterContext {
     const std::uint8_t* kinds;
     const Transparency* transparency;
     std::uint32_t salt;
+    std::uint8_t passing;  ///< the kinds that may let light through
 };
 
 /// Embree calls this for every surface that a ray meets, one at a time since rays are traced one at a time.
@@ -73,13 +74,17 @@ void reject_what_passes(const RTCFilterFunctionNArguments* a) {
     const auto& context = *reinterpret_cast<const FilterContext*>(a->context);
     const auto& ray = *reinterpret_cast<const RTCRay*>(a->ray);
     const auto& hit = *reinterpret_cast<const RTCHit*>(a->hit);
-    const std::uint8_t kind = context.kinds[hit.primID];
+    const std::uint8_t kind = context.kinds[hit.primID] & context.passing;
     if (kind == 0 || a->valid[0] == 0) return;
     const float along = ray.dir_x * hit.Ng_x + ray.dir_y * hit.Ng_y + ray.dir_z * hit.Ng_z;
     const bool from_behind = (kind & k_one_sided) != 0 && along > 0;
     if (from_behind ||
         ((kind & k_transparent) != 0 && context.transparency->passes(hit.primID, hit.u, hit.v, context.salt)))
         a->valid[0] = 0;
+}
+
+constexpr std::uint8_t passing(Backs backs) {
+    return backs == Backs::pass ? k_one_sided | k_transparent : k_transparent;
 }
 
 RTCRay make_ray(Vec3 origin, Vec3 direction, float farthest) {
@@ -111,10 +116,8 @@ struct RayScene::Handles {
 };
 
 RayScene::RayScene(const World& world, std::vector<std::uint8_t> kinds, const Transparency& transparency)
-    : kinds_(std::move(kinds)),
-      transparency_(&transparency),
-      handles_(new Handles),
-      all_stop_(std::all_of(kinds_.begin(), kinds_.end(), [](std::uint8_t kind) { return kind == 0; })) {
+    : kinds_(std::move(kinds)), transparency_(&transparency), handles_(new Handles), all_kinds_(0) {
+    for (const std::uint8_t kind : kinds_) all_kinds_ |= kind;
     assert(kinds_.size() == world.triangles.size());
     handles_->device = rtcNewDevice(nullptr);
     handles_->scene = rtcNewScene(handles_->device);
@@ -148,17 +151,18 @@ RayHit RayScene::closest(Vec3 origin, Vec3 direction, float farthest) const {
     return find(handles_->scene, context, nullptr, make_ray(origin, direction, farthest));
 }
 
-RayHit RayScene::closest_stop(Vec3 origin, Vec3 direction, std::uint32_t salt) const {
-    FilterContext context{{}, kinds_.data(), transparency_, salt};
+RayHit RayScene::closest_stop(Vec3 origin, Vec3 direction, std::uint32_t salt, Backs backs) const {
+    FilterContext context{{}, kinds_.data(), transparency_, salt, passing(backs)};
     start(context.embree);
     return find(handles_->scene, context.embree, reject_what_passes, make_ray(origin, direction, k_infinite));
 }
 
-bool RayScene::stopped(Vec3 origin, Vec3 direction, float distance, std::uint32_t salt) const {
-    FilterContext context{{}, kinds_.data(), transparency_, salt};
+bool RayScene::stopped(Vec3 origin, Vec3 direction, float distance, std::uint32_t salt, Backs backs) const {
+    FilterContext context{{}, kinds_.data(), transparency_, salt, passing(backs)};
     start(context.embree);
     RTCRay ray = make_ray(origin, direction, distance);
-    occlude(handles_->scene, context.embree, all_stop_ ? nullptr : reject_what_passes, ray);
+    const bool all_stop = (all_kinds_ & context.passing) == 0;
+    occlude(handles_->scene, context.embree, all_stop ? nullptr : reject_what_passes, ray);
     return ray.tfar < 0;
 }
 

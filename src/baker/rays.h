@@ -28,6 +28,9 @@ class Transparency {
     [[nodiscard]] virtual bool passes(std::uint32_t triangle, float u, float v, std::uint32_t salt) const = 0;
 };
 
+/// What light that meets the back of a one-sided triangle does.
+enum class Backs { pass, stop };
+
 /// The triangles of a world. Immutable; any number of threads may ask.
 class RayScene {
   public:
@@ -40,9 +43,9 @@ class RayScene {
     /// The first surface of whatever kind between 0 and `farthest`.
     [[nodiscard]] RayHit closest(Vec3 origin, Vec3 direction, float farthest) const;
     /// The first surface that stops light, `salt` being the ray's random number where chance decides.
-    [[nodiscard]] RayHit closest_stop(Vec3 origin, Vec3 direction, std::uint32_t salt) const;
+    [[nodiscard]] RayHit closest_stop(Vec3 origin, Vec3 direction, std::uint32_t salt, Backs backs) const;
     /// Whether a surface stops light within `distance`.
-    [[nodiscard]] bool stopped(Vec3 origin, Vec3 direction, float distance, std::uint32_t salt) const;
+    [[nodiscard]] bool stopped(Vec3 origin, Vec3 direction, float distance, std::uint32_t salt, Backs backs) const;
 
     [[nodiscard]] std::uint8_t kind(std::uint32_t triangle) const { return kinds_[triangle]; }
 
@@ -51,7 +54,7 @@ class RayScene {
     std::vector<std::uint8_t> kinds_;
     const Transparency* transparency_;
     Handles* handles_;
-    bool all_stop_;
+    std::uint8_t all_kinds_;  ///< whatever occurs
 };
 
 }  // namespace lobelia

@@ -76,10 +76,9 @@ std::array<float, 4> Surfaces::vertex_color(std::uint32_t triangle, float u, flo
     return sum;
 }
 
-Reflectance Surfaces::reflectance(std::uint32_t triangle, float u, float v) const {
+Rgb Surfaces::base_color(std::uint32_t triangle, float u, float v) const {
     const Material& m = scene_->materials[facets_[triangle].material];
     Rgb base = m.base_color;
-    float metallic = m.metallic, roughness = m.roughness;
     if (facets_[triangle].colored) {
         const auto c = vertex_color(triangle, u, v);
         base = product(base, {c[0], c[1], c[2]});
@@ -88,6 +87,13 @@ Reflectance Surfaces::reflectance(std::uint32_t triangle, float u, float v) cons
         const auto c = read(*m.base_color_texture, Curve::srgb, triangle, u, v);
         base = product(base, {c[0], c[1], c[2]});
     }
+    return base;
+}
+
+Reflectance Surfaces::reflectance(std::uint32_t triangle, float u, float v) const {
+    const Material& m = scene_->materials[facets_[triangle].material];
+    const Rgb base = base_color(triangle, u, v);
+    float metallic = m.metallic, roughness = m.roughness;
     if (m.metallic_roughness_texture) {
         const auto c = read(*m.metallic_roughness_texture, Curve::linear, triangle, u, v);
         roughness *= c[1];

@@ -38,6 +38,8 @@ class Surfaces final : public Transparency {
     [[nodiscard]] std::size_t size() const { return facets_.size(); }
     /// The point at (u, v), seen along `direction`.
     [[nodiscard]] SurfacePoint point(std::uint32_t triangle, float u, float v, Vec3 direction) const;
+    /// Base colour with texture and the vertices' colours.
+    [[nodiscard]] Rgb base_color(std::uint32_t triangle, float u, float v) const;
     /// Radiance from the front, transparency not counted.
     [[nodiscard]] Rgb emission(std::uint32_t triangle, float u, float v) const;
     [[nodiscard]] bool double_sided(std::uint32_t triangle) const {

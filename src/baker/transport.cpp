@@ -17,24 +17,35 @@ constexpr float k_same_spot = 1e-5f;
 PathTracer::Implementation::Implementation(const Scene& s, const World& w, const PathOptions& o)
     : scene(&s), world(&w), options(o), surfaces(s, w), rays(w, surfaces.kinds(), surfaces), lights(s, surfaces, o) {}
 
-/// Finds the surface that stops the path where the first one does not; false where there is none.
+/// Finds the surface that stops the path where the first one does not; false where there is none. A receiver must not
+/// see backs: they are reported, and what the path finds beyond them is for pictures alone.
 bool PathTracer::Implementation::stop(const Path& path, std::uint32_t salt, int depth, RayHit& hit, Incident& out,
                                       Scratch& scratch) const {
     if (hit.distance == k_infinite) return false;
-    const std::uint8_t kind = rays.kind(hit.triangle);
-    if (kind == 0) return true;
-    const bool back = (kind & k_one_sided) != 0 && dot(surfaces.facet(hit.triangle).normal, path.direction) > 0;
-    const bool clear = (kind & k_transparent) != 0 && surfaces.passes(hit.triangle, hit.u, hit.v, salt);
-    if (!back && !clear) return true;
+    const auto shows_back = [&] {
+        return (rays.kind(hit.triangle) & k_one_sided) != 0 &&
+               dot(surfaces.facet(hit.triangle).normal, path.direction) > 0;
+    };
+    const auto look_again = [&](Backs backs) {
+        hit = rays.closest_stop(path.origin, path.direction, salt, backs);
+        ++scratch.rays;
+        return hit.distance != k_infinite;
+    };
+    if (rays.kind(hit.triangle) == 0) return true;
+    const bool clear =
+        (rays.kind(hit.triangle) & k_transparent) != 0 && surfaces.passes(hit.triangle, hit.u, hit.v, salt);
+    if (!clear && !shows_back()) return true;
+    if (depth > 0) return look_again(Backs::pass);
 
+    if (clear && !look_again(Backs::stop)) return false;
+    if (!shows_back()) return true;
     const float first = hit.distance;
-    hit = rays.closest_stop(path.origin, path.direction, salt);
-    ++scratch.rays;
-    if (depth == 0 && back && !clear && hit.distance > first * (1 + k_same_spot)) {
+    const bool stopped = look_again(Backs::pass);
+    if (hit.distance > first * (1 + k_same_spot)) {
         out.back_face = true;
         out.distance = first;
     }
-    return hit.distance != k_infinite;
+    return stopped;
 }
 
 /// Adds light that the path met by chance, weighted against having been aimed at (balance heuristic).
@@ -152,7 +163,7 @@ void PathTracer::Implementation::follow(std::span<Incident> out, std::size_t cou
         // Add the light that is not hidden.
         for (std::size_t i = 0; i < shadows; ++i) {
             const ShadowRay& s = scratch.shadows[i];
-            if (!rays.stopped(s.origin, s.direction, s.distance, s.salt))
+            if (!rays.stopped(s.origin, s.direction, s.distance, s.salt, Backs::pass))
                 out[s.out].scattered = out[s.out].scattered + s.radiance;
         }
         scratch.rays += count + shadows;

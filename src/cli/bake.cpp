@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <cmath>
 
 #include "cli/bake_job.h"
 #include "cli/common.h"
@@ -16,7 +17,8 @@ namespace fs = std::filesystem;
 struct Options {
     BakeJob job;
     std::string size = "512x512", memory = "2G", shard, shard_by = "tiles", frame = "world", directions = "uniform",
-                layout = "automatic", probes, probe_spacing;
+                layout = "automatic", probes;
+    std::string precision = "half", rebake_object;
     std::uint32_t add_samples = 0;
     bool resume = false, plain = false;
     bool no_denoise = false, no_seams = false, no_dilate = false, no_push_out = false, no_page = false;
@@ -44,7 +46,8 @@ Result<Shard> parse_shard(const std::string& text, const std::string& by) {
     const char* end = text.data() + text.size();
     const auto [slash, index_code] = std::from_chars(text.data(), end, shard.index);
     const bool good = index_code == std::errc() && slash != end && *slash == '/';
-    const auto [rest, count_code] = good ? std::from_chars(slash + 1, end, shard.count) : std::from_chars_result{end, {}};
+    const auto [rest, count_code] =
+        good ? std::from_chars(slash + 1, end, shard.count) : std::from_chars_result{end, {}};
     if (!good || count_code != std::errc() || rest != end || shard.index >= shard.count || shard.count > 65536)
         return Error{"--shard: \"" + text + "\" is not a part such as 0/4, counted from 0"};
     return shard;
@@ -72,7 +75,8 @@ Result<BakeJob> to_job(const Options& options) {
     BakeJob job = options.job;
     const auto size = parse_grid(options.size);
     if (!size) return Error{"--size: " + size.error().message};
-    if (size->width > 16384 || size->height > 16384) return Error{"--size: pages of at most 16384x16384 texels are made"};
+    if (size->width > 16384 || size->height > 16384)
+        return Error{"--size: pages of at most 16384x16384 texels are made"};
     job.bake.atlas.width = size->width;
     job.bake.atlas.height = size->height;
     const auto memory = parse_memory(options.memory);
@@ -93,6 +97,7 @@ Result<BakeJob> to_job(const Options& options) {
     job.bake.paths.roulette = off_if(options.no_roulette);
     job.finish = {off_if(options.no_denoise), off_if(options.no_seams), off_if(options.no_dilate)};
     job.page = !options.no_page;
+    job.precision = options.precision == "half" ? ExrOptions::Precision::half : ExrOptions::Precision::full;
     if (!options.probes.empty()) {
         const auto box = parse_box(options.probes);
         if (!box) return box.error();
@@ -106,11 +111,13 @@ Result<BakeJob> to_job(const Options& options) {
 }
 
 Status bake_verb(const Options& options) {
-    if (!options.resume && options.add_samples == 0) {
-        if (options.job.scene.path.empty()) return Error{"bake: a scene is missing: a .glb or .gltf file, or cornell or colonnade"};
+    const bool rebake = !options.rebake_object.empty();
+    if (!options.resume && options.add_samples == 0 && !rebake) {
+        if (options.job.scene.path.empty())
+            return Error{"bake: a scene is missing: a .glb or .gltf file, or cornell or colonnade"};
         auto job = to_job(options);
         if (!job) return job.error();
-        return run_job(std::move(*job), JobStart::fresh);
+        return run_job(*job, JobStart::fresh);
     }
 
     // Everything but this session's limits is as it was.
@@ -122,7 +129,11 @@ Status bake_verb(const Options& options) {
     job->bake.threads = options.job.bake.threads;
     job->bake.most_seconds = options.job.bake.most_seconds;
     job->bake.samples += options.add_samples;
-    return run_job(std::move(*job), JobStart::resume);
+    if (!rebake) return run_job(*job, JobStart::resume);
+    // States would no longer fit: the object, or what it sees, has changed.
+    job->bake.only_object = options.rebake_object;
+    job->bake.checkpoint.clear();
+    return run_job(*job, JobStart::rebake);
 }
 
 Status merge_verb(const std::vector<std::string>& parts, const std::string& out, unsigned threads) {
@@ -134,10 +145,10 @@ Status merge_verb(const std::vector<std::string>& parts, const std::string& out,
     job->bake.checkpoint = checkpoint_folder(out);
     job->bake.shard = {};
     job->bake.threads = threads;
-    return run_job(std::move(*job), JobStart::merged, folders);
+    return run_job(*job, JobStart::merged, folders);
 }
 
-void add_light_options(CLI::App& command, Options& o) {
+void add_transport_options(CLI::App& command, Options& o) {
     BakeOptions& bake = o.job.bake;
     command.add_option("--codec", bake.codec, "As basis/encoder/evaluator, see lobelia list")->capture_default_str();
     command.add_flag("--plain", o.plain, "No codec: irradiance at the shading normal alone");
@@ -150,8 +161,9 @@ void add_light_options(CLI::App& command, Options& o) {
     command.add_option("--bounces", bake.paths.bounces, "Surfaces that light may meet on its way, 0 to 64")
         ->check(CLI::Range(0, 64))
         ->capture_default_str();
-    command.add_option("--directions", o.directions,
-                       "uniform: best for radiance; mixture: half by the cosine, for irradiance at the normal")
+    command
+        .add_option("--directions", o.directions,
+                    "uniform: best for radiance; mixture: half by the cosine, for irradiance at the normal")
         ->check(CLI::IsMember({"uniform", "mixture"}))
         ->capture_default_str();
     command.add_option("--seed", bake.paths.seed, "Of all sequences, 0 to 4294967295")->capture_default_str();
@@ -162,8 +174,9 @@ void add_light_options(CLI::App& command, Options& o) {
 void add_atlas_options(CLI::App& command, Options& o) {
     AtlasOptions& atlas = o.job.bake.atlas;
     command.add_option("--size", o.size, "Of a page [texels], WxH, up to 16384x16384")->capture_default_str();
-    command.add_option("--texels-per-metre", atlas.texels_per_metre,
-                       "Size each object by its area instead, 0.01 to 10000; packs objects into pages")
+    command
+        .add_option("--texels-per-metre", atlas.texels_per_metre,
+                    "Size each object by its area instead, 0.01 to 10000; packs objects into pages")
         ->check(number_in(0.01, 10000));
     command.add_option("--layout", o.layout, "shared: objects lie in one UV square; packed: each has its own")
         ->check(CLI::IsMember({"automatic", "shared", "packed"}))
@@ -175,17 +188,24 @@ void add_atlas_options(CLI::App& command, Options& o) {
 
 void add_session_options(CLI::App& command, Options& o) {
     BakeOptions& bake = o.job.bake;
-    command.add_option("-t,--threads", bake.threads, "0: all processors")->check(CLI::Range(0u, 1024u))->capture_default_str();
+    command.add_option("-t,--threads", bake.threads, "0: all processors")
+        ->check(CLI::Range(0u, 1024u))
+        ->capture_default_str();
     command.add_option("--memory", o.memory, "For states and pages, as 512M or 4G; more than fits is baked in turn")
         ->capture_default_str();
     command.add_option("--time", bake.most_seconds, "End after the pass in which so many seconds are over, 0.1 to 1e7")
         ->check(number_in(0.1, 1e7));
-    command.add_option("--target-error", bake.target_error,
-                       "A texel is done when its relative standard error is below this, 1e-4 to 1; --samples at most")
+    command
+        .add_option("--target-error", bake.target_error,
+                    "A texel is done when its relative standard error is below this, 1e-4 to 1; --samples at most")
         ->check(number_in(1e-4, 1));
     command.add_flag("--resume", o.resume, "Go on with the bake in -o where it was stopped; its options are kept");
-    command.add_option("--add-samples", o.add_samples, "Go on with the bake in -o, with so many more samples, 1 to 1000000")
+    command
+        .add_option("--add-samples", o.add_samples,
+                    "Go on with the bake in -o, with so many more samples, 1 to 1000000")
         ->check(CLI::Range(1u, 1'000'000u));
+    command.add_option("--rebake-object", o.rebake_object,
+                       "Bake this object of the finished bake in -o anew, from the scene as it is now");
     command.add_option("--shard", o.shard, "Only a part, such as 0/4; lobelia merge puts parts together");
     command.add_option("--shard-by", o.shard_by, "tiles: the merged bits are the same; samples: sums of them")
         ->check(CLI::IsMember({"tiles", "samples"}))
@@ -194,7 +214,7 @@ void add_session_options(CLI::App& command, Options& o) {
 
 void add_output_options(CLI::App& command, Options& o) {
     command.add_option("-o,--out", o.job.out, "Folder of the bake")->required();
-    command.add_option("--precision", o.job.precision, "Of the EXR pages, half or float")
+    command.add_option("--precision", o.precision, "Of the EXR pages, half or float")
         ->check(CLI::IsMember({"half", "float"}))
         ->capture_default_str();
     command.add_flag("--no-denoise", o.no_denoise, "Leave noise as it is");
@@ -221,7 +241,7 @@ Verb add_bake(CLI::App& app) {
     auto options = std::make_shared<Options>();
     CLI::App* command = app.add_subcommand("bake", "Bake a scene's light into lightmaps and probes");
     add_scene_options(*command, options->job.scene, SceneArgument::optional);
-    add_light_options(*command, *options);
+    add_transport_options(*command, *options);
     add_atlas_options(*command, *options);
     add_session_options(*command, *options);
     add_output_options(*command, *options);

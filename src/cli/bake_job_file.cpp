@@ -2,11 +2,37 @@
 #include <fmt/format.h>
 
 #include "baker/output/bake_fields.h"
+#include "baker/output/page_files.h"
 #include "cli/bake_job.h"
 #include "cli/common.h"
 #include "io/write_file.h"
 
-namespace lobelia::cli {
+namespace lobelia {
+
+void fields(auto& archive, Vec3& v) {
+    std::array<double, 3> c{v.x, v.y, v.z};
+    archive.number("x", c[0]);
+    archive.number("y", c[1]);
+    archive.number("z", c[2]);
+    v = {static_cast<float>(c[0]), static_cast<float>(c[1]), static_cast<float>(c[2])};
+}
+
+void fields(auto& archive, ProbeOptions& options) {
+    archive.number("spacing", options.spacing);
+    bool has_box = options.box.has_value();
+    archive.flag("in_box", has_box);
+    if (has_box) {
+        if (!options.box) options.box.emplace();
+        archive.group("lowest", (*options.box)[0]);
+        archive.group("highest", (*options.box)[1]);
+    }
+    archive.text("codec", options.codec);
+    archive.whole("levels", options.levels, 0, 6);
+    archive.number("tolerance", options.tolerance);
+    archive.whole("samples", options.samples, 1, k_any_u32);
+}
+
+namespace cli {
 namespace {
 
 constexpr std::uint64_t k_version = 1;
@@ -38,29 +64,6 @@ void fields(auto& archive, FinishSteps& steps) {
     archive.choice("denoise", steps.denoise, k_switch_names);
     archive.choice("seams", steps.seams, k_switch_names);
     archive.choice("dilate", steps.dilate, k_switch_names);
-}
-
-void fields(auto& archive, Vec3& v) {
-    std::array<double, 3> c{v.x, v.y, v.z};
-    archive.number("x", c[0]);
-    archive.number("y", c[1]);
-    archive.number("z", c[2]);
-    v = {static_cast<float>(c[0]), static_cast<float>(c[1]), static_cast<float>(c[2])};
-}
-
-void fields(auto& archive, ProbeOptions& options) {
-    archive.number("spacing", options.spacing);
-    bool has_box = options.box.has_value();
-    archive.flag("in_box", has_box);
-    if (has_box) {
-        if (!options.box) options.box.emplace();
-        archive.group("lowest", (*options.box)[0]);
-        archive.group("highest", (*options.box)[1]);
-    }
-    archive.text("codec", options.codec);
-    archive.whole("levels", options.levels, 0, 6);
-    archive.number("tolerance", options.tolerance);
-    archive.whole("samples", options.samples, 1, k_any_u32);
 }
 
 /// Threads and time limits are each session's own; the regions of a checkpoint follow the memory.
@@ -111,4 +114,5 @@ Result<BakeJob> load_job(const std::filesystem::path& out) {
     }
 }
 
-}  // namespace lobelia::cli
+}  // namespace cli
+}  // namespace lobelia

@@ -122,20 +122,27 @@ void complain(const std::string& line) {
     std::fflush(stderr);
 }
 
-Progress progress_bar() {
+LabelledProgress labelled_progress_bar() {
     if (isatty(STDERR_FILENO) == 0) return {};
     const auto start = std::chrono::steady_clock::now();
-    return [start, shown = false](double done) mutable {
+    return [start, shown = false](double done, std::string_view text) mutable {
         const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         if (seconds < 1 || (done >= 1 && !shown)) return;
         constexpr int width = 40;
         const int filled = static_cast<int>(done * width);
-        std::string line = fmt::format("\r[{:=<{}}{: <{}}] {:3.0f} %", "", filled, "", width - filled, 100 * done);
+        std::string line =
+            fmt::format("\r[{:=<{}}{: <{}}] {:3.0f} % {}\033[K", "", filled, "", width - filled, 100 * done, text);
         if (done >= 1 - 1e-9) line += "\r\033[K";
         std::fputs(line.c_str(), stderr);
         std::fflush(stderr);
         shown = true;
     };
+}
+
+Progress progress_bar() {
+    auto bar = labelled_progress_bar();
+    if (!bar) return {};
+    return [bar](double done) { bar(done, ""); };
 }
 
 }  // namespace lobelia::cli

@@ -15,7 +15,7 @@ namespace lobelia {
 
 struct ReadChannelsOptions {
     /// These channels in this order, each of which must be there; empty: all, as OpenEXR sorts them (by name).
-    std::vector<std::string> wanted;
+    std::vector<std::string> wanted = {};
     /// Larger files are refused before anything is allocated for them.
     std::size_t most_pixels = std::size_t{1} << 28;
     std::size_t most_channels = 4096;

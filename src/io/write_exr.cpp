@@ -4,6 +4,7 @@
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfRgba.h>
+#include <OpenEXR/ImfThreading.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -54,11 +55,12 @@ class Band {
 
     [[nodiscard]] Imf::PixelType type(std::size_t channel) const { return types_[channel]; }
 
-    /// As many rows as fit a buffer of moderate size, in whole chunks of the compression.
+    /// Whole chunks of the compression: as many as fit a small buffer, but one for each thread.
     [[nodiscard]] std::size_t most_rows() const {
-        constexpr std::size_t k_most_halves = std::size_t{1} << 23, k_chunk = 16;
+        constexpr std::size_t k_most_halves = std::size_t{1} << 21, k_chunk = 16;
         const auto halves = static_cast<std::size_t>(std::count(types_.begin(), types_.end(), Imf::HALF));
-        return std::max(k_most_halves / std::max<std::size_t>(halves * width_, 1) / k_chunk, std::size_t{1}) * k_chunk;
+        const auto threads = static_cast<std::size_t>(std::max(Imf::globalThreadCount(), 1));
+        return std::max(k_most_halves / std::max<std::size_t>(halves * width_, 1) / k_chunk, threads) * k_chunk;
     }
 
     /// Rows [first, first + rows).

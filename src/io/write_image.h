@@ -1,6 +1,7 @@
 // Images into files: OpenEXR with named float channels, and PNG pictures for people.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -52,7 +53,10 @@ struct Image8 {
 
 /// The bytes of a PNG file.
 [[nodiscard]] Result<std::string> encode_png(const Image8& picture);
-/// The same into a file, written atomically.
+/// The same with alpha, of texels as they are, red, green, blue, alpha.
+[[nodiscard]] Result<std::string> encode_png(std::size_t width, std::size_t height,
+                                             std::span<const std::array<std::uint8_t, 4>> texels);
+/// The first into a file, written atomically.
 [[nodiscard]] Status write_png(const std::filesystem::path& path, const Image8& picture);
 
 }  // namespace lobelia

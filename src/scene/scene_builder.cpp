@@ -147,6 +147,8 @@ Scene SceneBuilder::finish(const LightmapOptions& options) {
         }
     }
     charts_.clear();
+    if (scene_.textures.empty())
+        for (Mesh& mesh : scene_.meshes) mesh.uv[0].clear();
     return std::exchange(scene_, {});
 }
 

@@ -80,7 +80,8 @@ class SceneBuilder {
         std::uint32_t grid = 256;   ///< chart corners are multiples of 1 / grid
         std::uint32_t padding = 4;  ///< between charts [1 / grid]
     };
-    /// Packs the charts at the largest scale that fits. The builder is empty after.
+    /// Packs the charts at the largest scale that fits. Texture coordinates are dropped where there is no texture. The
+    /// builder is empty after.
     [[nodiscard]] Scene finish(const LightmapOptions& options);
 
   private:

@@ -3,9 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "baker/output/bake_fields.h"
+#include "baker/output/files_together.h"
 #include "baker/output/page_files.h"
+#include "baker/output/page_textures.h"
 #include "baker/output/probe_files.h"
-#include "io/staged_file.h"
 
 namespace lobelia {
 namespace {
@@ -15,71 +19,82 @@ namespace fs = std::filesystem;
 constexpr const char* k_probes_name = "probes.json";
 constexpr const char* k_probe_coefficients_name = "probes.bin";
 
-/// Files that are all complete before the first takes its place.
-class FilesTogether {
-  public:
-    explicit FilesTogether(fs::path folder) : folder_(std::move(folder)) {}
+using Packings = std::vector<std::shared_ptr<const TexturePacking>>;
 
-    /// Fills a file by `write(staged file)`.
-    template <class Write>
-    Status add(const std::string& name, const Write& write) {
-        auto file = StagedFile::create(folder_ / name);
-        if (!file) return file.error();
-        if (auto status = write(*file); !status) return status;
-        if (auto status = file->flush(); !status) return status;
-        files_.push_back(*std::move(file));
-        return Done{};
+/// The packings asked for, of the codec's basis.
+Result<Packings> chosen_packings(const BakeOptions& bake, const WriteBakeOptions& options) {
+    const auto codec = make_codec(bake.codec);
+    if (!codec) return codec.error();
+    Packings all = codec->basis().packings();
+    if (!options.packings) return all;
+    Packings chosen;
+    std::vector<std::string> names;
+    for (const auto& packing : all) names.push_back(packing->name());
+    for (const auto& name : *options.packings) {
+        const auto found = std::find(names.begin(), names.end(), name);
+        if (found == names.end())
+            return Error{
+                fmt::format("{} has no packing \"{}\"{}", codec->basis().name(), name, nearest_names(name, names))};
+        chosen.push_back(all[static_cast<std::size_t>(found - names.begin())]);
     }
-    Status add_text(const std::string& name, std::string_view text) {
-        return add(name, [&](StagedFile& file) { return file.write(std::as_bytes(std::span(text))); });
-    }
-    /// In the order in which they were added.
-    Status commit() {
-        for (auto& file : files_)
-            if (auto status = file.commit(); !status) return status;
-        return Done{};
-    }
+    return chosen;
+}
 
-  private:
-    fs::path folder_;
-    std::vector<StagedFile> files_;
-};
+Status add_textures(FilesTogether& files, const Page& page, const Packings& packings, const std::string& origin,
+                    BakedPage& baked) {
+    const std::string stem = fs::path(baked.file).stem().string();
+    for (const auto& packing : packings) {
+        const auto arrays = packing->textures();
+        for (std::size_t i = 0; i < arrays.size(); ++i) {
+            BakedTexture& texture = baked.textures.emplace_back(
+                BakedTexture{packing->name(), fmt::format("{}.{}.{}.ktx2", stem, packing->name(), arrays[i].name),
+                             format_name(arrays[i].format), arrays[i].layers});
+            auto status = files.add(
+                texture.file, [&](StagedFile& file) { return write_page_texture(file, page, *packing, i, origin); });
+            if (!status) return status;
+        }
+    }
+    return Done{};
+}
 
-Status write_all(FilesTogether& files, const Bake& bake) {
-    Manifest manifest = bake.manifest;
+Status add_pages(FilesTogether& files, const Bake& bake, const Packings& packings, Manifest& manifest) {
+    const std::string origin = fmt::format("{}, {} frame", manifest.options.codec,
+                                           k_frame_names[static_cast<std::size_t>(manifest.options.frame)]);
     manifest.pages.clear();
     for (std::size_t i = 0; i < bake.pages.size(); ++i) {
-        const std::string& name = manifest.pages.emplace_back(BakedPage{fmt::format("page-{}.exr", i), {}}).file;
-        auto status = files.add(name, [&](StagedFile& file) {
+        BakedPage& baked = manifest.pages.emplace_back(BakedPage{fmt::format("page-{}.exr", i), {}});
+        auto status = files.add(baked.file, [&](StagedFile& file) {
             return write_page(file, bake.pages[i], bake.layout(), bake.normals[i], {manifest.precision});
         });
+        if (status) status = add_textures(files, bake.pages[i], packings, origin, baked);
         if (!status) return status;
     }
+    return Done{};
+}
+
+Status add_probes(FilesTogether& files, const Bake& bake, Manifest& manifest) {
     manifest.probes.reset();
-    if (bake.probes) {
-        manifest.probes = k_probes_name;
-        auto status = files.add(k_probe_coefficients_name,
-                                [&](StagedFile& file) { return write_probe_coefficients(file, *bake.probes); });
-        if (status) status = files.add_text(k_probes_name, to_json_text(*bake.probes, k_probe_coefficients_name));
-        if (!status) return status;
-    }
-    return files.add_text(k_manifest_name, to_json_text(manifest));
+    if (!bake.probes) return Done{};
+    manifest.probes = k_probes_name;
+    auto status = files.add(k_probe_coefficients_name,
+                            [&](StagedFile& file) { return write_probe_coefficients(file, *bake.probes); });
+    if (status) status = files.add_text(k_probes_name, to_json_text(*bake.probes, k_probe_coefficients_name));
+    return status;
 }
 
 }  // namespace
 
-Status write_bake(const fs::path& folder, const Bake& bake) {
+Status write_bake(const fs::path& folder, const Bake& bake, const WriteBakeOptions& options) {
     assert(bake.pages.size() == bake.normals.size());
-    std::error_code code;
-    const bool made = fs::create_directories(folder, code);
-    if (code) return Error{fmt::format("{}: cannot be made a folder: {}", folder.string(), code.message())};
-    Status status = [&]() -> Status {
-        FilesTogether files(folder);
-        auto written = write_all(files, bake);
-        return written ? files.commit() : written;
-    }();
-    if (!status && made) fs::remove(folder, code);
-    return status;
+    const auto packings = chosen_packings(bake.manifest.options, options);
+    if (!packings) return packings.error();
+    auto files = FilesTogether::in(folder);
+    if (!files) return files.error();
+    Manifest manifest = bake.manifest;
+    auto status = add_pages(*files, bake, *packings, manifest);
+    if (status) status = add_probes(*files, bake, manifest);
+    if (status) status = files->add_text(k_manifest_name, to_json_text(manifest));
+    return status ? files->commit() : status;
 }
 
 Result<Bake> read_bake(const fs::path& path) {

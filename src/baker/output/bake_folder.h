@@ -17,9 +17,15 @@ struct Bake {
     [[nodiscard]] PageLayout layout() const { return {manifest.coefficients}; }
 };
 
-/// Writes the pages and probes, then the manifest with the files' names filled in. The folder is made if it is missing.
-/// Every file is complete beside its place before the first takes it; the manifest comes last.
-[[nodiscard]] Status write_bake(const std::filesystem::path& folder, const Bake& bake);
+struct WriteBakeOptions {
+    /// Ways to store the coefficients in textures, by name; absent: all that the basis knows (Basis::packings).
+    std::optional<std::vector<std::string>> packings = {};
+};
+
+/// Writes the pages, their textures and the probes, then the manifest with the files' names filled in. The folder is
+/// made if it is missing. Every file is complete beside its place before the first takes it; the manifest comes last.
+[[nodiscard]] Status write_bake(const std::filesystem::path& folder, const Bake& bake,
+                                const WriteBakeOptions& options = {});
 
 /// Reads a folder, or the bake.json in it. Errors name the file and the place in it.
 [[nodiscard]] Result<Bake> read_bake(const std::filesystem::path& folder);
