@@ -3,6 +3,7 @@
 #include <benchmark/benchmark.h>
 
 #include "bench/machine.h"
+#include "bench/trace.h"
 #include "lobelia/sky.h"
 #include "report/comparison.h"
 
@@ -134,6 +135,7 @@ void register_all() {
     benchmark::RegisterBenchmark(named("machine", std::string("fma-") + target_name(), 16000).c_str(), machine_fma);
     for (const auto& name : basis_names()) register_basis(make_basis(name).value());
     register_scaling();
+    register_trace();
     benchmark::RegisterBenchmark(named("reference", "irradiance", k_grid.size()).c_str(), exact_irradiance);
     benchmark::RegisterBenchmark("resize.area.2048x1024", reduce);
     const ComparisonOptions whole, figures{.pictures = false, .convergence = false};

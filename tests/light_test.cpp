@@ -120,7 +120,7 @@ TEST_F(ManyLights, SampledTrianglesHaveTheDensityThatIsStated) {
         const Vantage at{{0.1f, 0.2f, 0.3f}, i % 2 == 0 ? Vec3{} : normalize(Vec3{1, 2, -1})};
         const LightSample s = lights_.sample(at, pair(1, i, 0, 1).a, pair(1, i, 1, 1));
         if (s.pdf == 0 || !(s.distance < INFINITY)) continue;
-        const RayHit hit = rays.closest_stop(at.position, s.direction, 0);
+        const RayHit hit = rays.closest_stop(at.position, s.direction, 0, Backs::pass);
         // What is hidden by another triangle cannot be found by its ray.
         if (std::abs(hit.distance - s.distance) > 1e-4f) continue;
         const Facet& facet = surfaces_.facet(hit.triangle);

@@ -39,8 +39,16 @@ EnvironmentLight::EnvironmentLight(const Image& image, Choice choice) : image_(&
 }
 
 EnvironmentLight::Texel EnvironmentLight::texel(Vec3 direction) const {
-    const std::size_t index = lat_long(*image_).index(direction);
-    return {index % image_->width, index / image_->width};
+    // As LatLong::index, in single precision; rows by the same table from which directions are sampled.
+    constexpr auto per_turn = static_cast<float>(1 / (2 * k_pi)), per_half_turn = static_cast<float>(1 / k_pi);
+    const auto cell = [](float at, std::size_t n) {
+        return std::min(static_cast<std::size_t>(std::max(0.0f, at) * static_cast<float>(n)), n - 1);
+    };
+    const float turn = 0.5f + std::atan2(direction.x, -direction.z) * per_turn;
+    std::size_t y = cell(std::acos(std::clamp(direction.y, -1.0f, 1.0f)) * per_half_turn, image_->height);
+    if (y > 0 && direction.y > cosine_[y]) --y;
+    if (y + 1 < image_->height && direction.y < cosine_[y + 1]) ++y;
+    return {cell(turn, image_->width), y};
 }
 
 float EnvironmentLight::texel_pdf(Texel t) const {

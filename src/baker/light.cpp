@@ -80,9 +80,7 @@ float Lights::triangle_pdf(const Vantage& at, std::uint32_t emitter, float dista
     Weights weights;
     const float total = weigh(at, weights);
     const Source& s = sources_[source_of_emitter_[emitter]];
-    const Facet& f = surfaces_->facet(surfaces_->emissive()[emitter]);
-    const float area = 0.5f * length(cross(f.edge_u, f.edge_v));
-    return total > 0 ? s.share * weights[s.group] / total * distance * distance / (area * cosine) : 0;
+    return total > 0 ? s.share * weights[s.group] / total * distance * distance / (s.area * cosine) : 0;
 }
 
 LightSample Lights::sample_triangle(const Source& source, float probability, const Vantage& at, Pair point) const {
@@ -97,8 +95,7 @@ LightSample Lights::sample_triangle(const Source& source, float probability, con
     // Aim a little before it, so that it does not hide itself.
     const Vec3 aim = to + f.normal * (side > 0 ? -f.lift : f.lift);
     const float distance2 = dot(to, to), distance = std::sqrt(distance2);
-    const float area = 0.5f * length(cross(f.edge_u, f.edge_v));
-    const float pdf = probability * distance2 * distance / (area * std::abs(side));
+    const float pdf = probability * distance2 * distance / (source.area * std::abs(side));
     const float reach = length(aim);
     const Rgb radiance = surfaces_->emission(triangle, u, v) * surfaces_->opacity(triangle, u, v);
     return {aim * (1 / reach), reach, radiance * (1 / pdf), pdf};

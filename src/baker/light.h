@@ -55,6 +55,7 @@ class Lights {
         Vec3 centre;              ///< near: of its bounding sphere; far: direction towards it, or 0: all around
         float radius = 0;         ///< near: of the sphere; far: sine of the angular radius
         Vec3 front;               ///< normal of a one-sided triangle, or 0
+        float area = 0;           ///< of a triangle
         std::uint32_t group = 0;
         float share = 1;  ///< probability within its group
     };

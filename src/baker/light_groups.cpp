@@ -41,7 +41,7 @@ void Lights::add_sky(const PathOptions& options) {
                                             ? EnvironmentLight::Choice::by_brightness
                                             : EnvironmentLight::Choice::uniform);
             const Source source{
-                Kind::environment, 0, static_cast<float>(k_pi) * environment_->mean_luminance(), {}, 0, {}};
+                Kind::environment, 0, static_cast<float>(k_pi) * environment_->mean_luminance(), {}, 0, {}, 0};
             add_group({&source, 1}, true);
         }
     }
@@ -98,12 +98,12 @@ void Lights::add_near() {
             {length(f.corner - centre), length(f.corner + f.edge_u - centre), length(f.corner + f.edge_v - centre)});
         const float area = 0.5f * length(cross(f.edge_u, f.edge_v));
         sources.push_back({Kind::triangle, e, area * mean_emission(triangle), centre, radius,
-                           surfaces_->double_sided(triangle) ? Vec3{} : f.normal});
+                           surfaces_->double_sided(triangle) ? Vec3{} : f.normal, area});
     }
     for (std::uint32_t i = 0; i < scene_->lights.size(); ++i) {
         const PunctualLight& light = scene_->lights[i];
         if (light.kind == PunctualLight::Kind::directional || !(brightness(light.intensity) > 0)) continue;
-        sources.push_back({Kind::punctual, i, brightness(light.intensity), light.position, 0, {}});
+        sources.push_back({Kind::punctual, i, brightness(light.intensity), light.position, 0, {}, 0});
     }
     if (!sources.empty()) split(std::move(sources));
 }

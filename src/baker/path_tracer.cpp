@@ -82,7 +82,7 @@ void PathTracer::closest(std::span<const Ray> rays, std::span<Hit> out) const {
 }
 
 bool PathTracer::stops(const Ray& ray) const {
-    return implementation_->rays.stopped(ray.origin, ray.direction, ray.farthest, 0);
+    return implementation_->rays.stopped(ray.origin, ray.direction, ray.farthest, 0, Backs::pass);
 }
 
 bool PathTracer::has_light() const { return implementation_->lights.any(); }
