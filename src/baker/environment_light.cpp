@@ -36,6 +36,7 @@ EnvironmentLight::EnvironmentLight(const Image& image, Choice choice) : image_(&
     assert(total > 0);
     rows_.emplace_back(row_weights);
     mean_luminance_ = static_cast<float>(total);
+    density_ = static_cast<float>(1 / (4 * k_pi * total));
 }
 
 EnvironmentLight::Texel EnvironmentLight::texel(Vec3 direction) const {
@@ -51,10 +52,11 @@ EnvironmentLight::Texel EnvironmentLight::texel(Vec3 direction) const {
     return {cell(turn, image_->width), y};
 }
 
-float EnvironmentLight::texel_pdf(Texel t) const {
-    const double solid_angle =
-        2 * k_pi * static_cast<double>(cosine_[t.y] - cosine_[t.y + 1]) / static_cast<double>(image_->width);
-    return static_cast<float>(rows_[0].probability(t.y) * columns_[t.y].probability(t.x) / solid_angle);
+EnvironmentSample EnvironmentLight::look(Vec3 direction, Texel t) const {
+    // The probability of a texel is its luminance times its solid angle over the sum of these: over the solid angle,
+    // the latter cancels.
+    const Rgb radiance = image_->at(t.x, t.y);
+    return {direction, radiance, choice_ == Choice::uniform ? k_uniform_pdf : brightness(radiance) * density_};
 }
 
 EnvironmentSample EnvironmentLight::sample(Pair point) const {
@@ -67,13 +69,10 @@ EnvironmentSample EnvironmentLight::sample(Pair point) const {
     const auto turn = static_cast<float>((static_cast<double>(x) + column_rest) / static_cast<double>(image_->width));
     // Column u looks to the azimuth pi (2 u - 1) (docs/conventions.md): half a turn is a change of sign.
     const auto [c, s] = cos_sin_turns(turn);
-    return {{-r * s, height, r * c}, image_->at(x, y), texel_pdf({x, y})};
+    return look({-r * s, height, r * c}, {x, y});
 }
 
-EnvironmentSample EnvironmentLight::at(Vec3 direction) const {
-    const Texel t = texel(direction);
-    return {direction, image_->at(t.x, t.y), choice_ == Choice::uniform ? k_uniform_pdf : texel_pdf(t)};
-}
+EnvironmentSample EnvironmentLight::at(Vec3 direction) const { return look(direction, texel(direction)); }
 
 float EnvironmentLight::pdf(Vec3 direction) const { return at(direction).pdf; }
 

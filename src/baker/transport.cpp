@@ -74,9 +74,9 @@ bool PathTracer::Implementation::aim(const Path& path, const SurfacePoint& at, c
     const LightSample light = lights.sample({at.origin, at.normal}, draws.light_choice, draws.light);
     if (is_black(light.irradiance) || dot(light.direction, at.face) <= 0) return false;
     const Vec3 wo = axes.local(path.direction * -1.0f), wi = axes.local(light.direction);
-    const Rgb reflection = reflected(at.reflectance, wo, wi);
+    const auto [reflection, pdf] = reflect(at.reflectance, wo, wi);
     if (is_black(reflection)) return false;
-    const float weight = light.pdf > 0 ? light.pdf / (light.pdf + scatter_pdf(at.reflectance, wo, wi)) : 1;
+    const float weight = light.pdf > 0 ? light.pdf / (light.pdf + pdf) : 1;
     shadow.origin = at.origin;
     shadow.direction = light.direction;
     shadow.distance = light.distance;
