@@ -202,5 +202,15 @@ TEST(Directions, CosSinTurnsIsExactEnough) {
     }
 }
 
+TEST(Directions, AnglesAreExactEnough) {
+    for (int i = -100000; i <= 100000; ++i) {
+        const double turn = i / 200000.0;
+        const auto s = static_cast<float>(std::sin(2 * k_pi * turn)), c = static_cast<float>(std::cos(2 * k_pi * turn));
+        ASSERT_NEAR(turns_of(s, c), std::atan2(static_cast<double>(s), static_cast<double>(c)) / (2 * k_pi), 1e-7);
+        ASSERT_NEAR(rough_half_turns_of(c), std::acos(static_cast<double>(c)) / k_pi, 2.2e-5);
+    }
+    EXPECT_EQ(turns_of(0, 0), 0);
+}
+
 }  // namespace
 }  // namespace lobelia

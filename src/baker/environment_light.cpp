@@ -40,16 +40,15 @@ EnvironmentLight::EnvironmentLight(const Image& image, Choice choice) : image_(&
 }
 
 EnvironmentLight::Texel EnvironmentLight::texel(Vec3 direction) const {
-    // As LatLong::index, in single precision; rows by the same table from which directions are sampled.
-    constexpr auto per_turn = static_cast<float>(1 / (2 * k_pi)), per_half_turn = static_cast<float>(1 / k_pi);
+    // As LatLong::index, but in single precision, and with rows parted by the table that directions are sampled from. A
+    // row is 2.2e-5 of half a turn or more up to 45,000 rows, hence the guess is off by one at most.
     const auto cell = [](float at, std::size_t n) {
         return std::min(static_cast<std::size_t>(std::max(0.0f, at) * static_cast<float>(n)), n - 1);
     };
-    const float turn = 0.5f + std::atan2(direction.x, -direction.z) * per_turn;
-    std::size_t y = cell(std::acos(std::clamp(direction.y, -1.0f, 1.0f)) * per_half_turn, image_->height);
+    std::size_t y = cell(rough_half_turns_of(direction.y), image_->height);
     if (y > 0 && direction.y > cosine_[y]) --y;
     if (y + 1 < image_->height && direction.y < cosine_[y + 1]) ++y;
-    return {cell(turn, image_->width), y};
+    return {cell(0.5f + turns_of(direction.x, -direction.z), image_->width), y};
 }
 
 EnvironmentSample EnvironmentLight::look(Vec3 direction, Texel t) const {
