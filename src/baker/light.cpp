@@ -52,16 +52,12 @@ float Lights::weigh(const Vantage& at, Weights& weights) const {
     return total;
 }
 
-SkyLight Lights::sky(const Weights& weights, float total, Vec3 direction) const {
-    SkyLight light;
+SkyLight Lights::sky(const Weights& weights, float total, const EnvironmentSample& environment) const {
+    SkyLight light{environment.radiance, 0};
     const auto probability = [&](const Source& s) { return total > 0 ? s.share * weights[s.group] / total : 0; };
-    if (environment_) {
-        const EnvironmentSample e = environment_->at(direction);
-        light.radiance = e.radiance;
-        if (aimed_at_) light.pdf = probability(sources_[0]) * e.pdf;
-    }
+    if (environment_ && aimed_at_) light.pdf = probability(sources_[0]) * environment.pdf;
     for (const Sun& sun : suns_)
-        if (sun.flatness > 0 && in_cap(sun.direction, sun.flatness, direction)) {
+        if (sun.flatness > 0 && in_cap(sun.direction, sun.flatness, environment.direction)) {
             light.radiance = light.radiance + sun.radiance;
             if (aimed_at_) light.pdf += probability(sources_[sun.source]) * sun.disc_pdf;
         }
@@ -72,7 +68,7 @@ SkyLight Lights::sky(const Vantage& at, Vec3 direction) const {
     if (!environment_ && suns_.empty()) return {};
     Weights weights;
     const float total = weigh(at, weights);
-    return sky(weights, total, direction);
+    return sky(weights, total, environment_ ? environment_->at(direction) : EnvironmentSample{direction, {}, 0});
 }
 
 float Lights::triangle_pdf(const Vantage& at, std::uint32_t emitter, float distance, float cosine) const {
@@ -134,17 +130,18 @@ LightSample Lights::sample(const Vantage& at, float choice, Pair point) const {
     const float probability = source.share * weights[g] / total;
     if (source.kind == Kind::triangle) return sample_triangle(source, probability, at, point);
     if (source.kind == Kind::punctual) return sample_punctual(scene_->lights[source.index], probability, at);
-    Vec3 direction;
+    EnvironmentSample environment;
     if (source.kind == Kind::environment) {
-        direction = environment_->sample(point).direction;
+        environment = environment_->sample(point);
     } else {
         const Sun& sun = suns_[source.index];
         if (sun.flatness == 0) return {sun.direction, k_infinite, sun.irradiance * (1 / probability), 0};
-        direction = Axes(sun.direction).world(cap_direction(sun.flatness, point));
+        environment.direction = Axes(sun.direction).world(cap_direction(sun.flatness, point));
+        if (environment_) environment = environment_->at(environment.direction);
     }
-    const SkyLight light = sky(weights, total, direction);
+    const SkyLight light = sky(weights, total, environment);
     if (!(light.pdf > 0)) return {};
-    return {direction, k_infinite, light.radiance * (1 / light.pdf), light.pdf};
+    return {environment.direction, k_infinite, light.radiance * (1 / light.pdf), light.pdf};
 }
 
 }  // namespace lobelia

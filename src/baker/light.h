@@ -90,7 +90,7 @@ class Lights {
 
     [[nodiscard]] float weight(const Group& group, const Vantage& at) const;
     float weigh(const Vantage& at, Weights& weights) const;
-    [[nodiscard]] SkyLight sky(const Weights& weights, float total, Vec3 direction) const;
+    [[nodiscard]] SkyLight sky(const Weights& weights, float total, const EnvironmentSample& environment) const;
     [[nodiscard]] LightSample sample_triangle(const Source& source, float probability, const Vantage& at,
                                               Pair point) const;
     [[nodiscard]] LightSample sample_punctual(const PunctualLight& light, float probability, const Vantage& at) const;
