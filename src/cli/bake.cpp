@@ -20,7 +20,7 @@ struct Options {
                 layout = "automatic", probes;
     std::string precision = "half", rebake_object;
     std::uint32_t add_samples = 0;
-    bool resume = false, plain = false;
+    bool resume = false, plain = false, preflight = false;
     bool no_denoise = false, no_seams = false, no_dilate = false, no_push_out = false, no_page = false;
     bool no_next_event = false, no_roulette = false;
 };
@@ -117,7 +117,7 @@ Status bake_verb(const Options& options) {
             return Error{"bake: a scene is missing: a .glb or .gltf file, or cornell or colonnade"};
         auto job = to_job(options);
         if (!job) return job.error();
-        return run_job(*job, JobStart::fresh);
+        return options.preflight ? preflight_job(*job) : run_job(*job, JobStart::fresh);
     }
 
     // Everything but this session's limits is as it was.
@@ -199,6 +199,8 @@ void add_session_options(CLI::App& command, Options& o) {
         .add_option("--target-error", bake.target_error,
                     "A texel is done when its relative standard error is below this, 1e-4 to 1; --samples at most")
         ->check(number_in(1e-4, 1));
+    command.add_flag("--preflight", o.preflight,
+                     "Only look at the lightmap UVs and at what the bake would take; pictures go to -o");
     command.add_flag("--resume", o.resume, "Go on with the bake in -o where it was stopped; its options are kept");
     command
         .add_option("--add-samples", o.add_samples,

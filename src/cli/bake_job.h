@@ -43,6 +43,9 @@ enum class JobStart {
     rebake   ///< from nothing for one object of a finished bake
 };
 
+/// Looks at the scene's lightmap UVs and at what the bake would take, before any ray; prints it and writes pictures.
+[[nodiscard]] Status preflight_job(const BakeJob& job);
+
 /// Loads, bakes, finishes, writes; progress on a terminal. Ctrl-C ends it with the last checkpoint in place.
 [[nodiscard]] Status run_job(const BakeJob& job, JobStart start, std::span<const std::filesystem::path> shards = {});
 

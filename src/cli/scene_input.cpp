@@ -11,7 +11,6 @@
 #include "cli/common.h"
 #include "scene/check_scene.h"
 #include "scene/embedded.h"
-#include "scene/gltf_read.h"
 #include "scene/sky_light.h"
 
 namespace lobelia::cli {
@@ -58,7 +57,6 @@ Result<LoadedScene> read_or_make(const SceneOptions& options) {
     const auto names = embedded_scene_names();
     auto scene = embedded_scene(options.path);
     if (scene && !std::filesystem::is_regular_file(options.path, code)) {
-        if (!scene) return scene.error();
         return LoadedScene{*std::move(scene), {}};
     }
     if (std::filesystem::exists(options.path, code)) {
@@ -67,18 +65,8 @@ Result<LoadedScene> read_or_make(const SceneOptions& options) {
         if (options.photometric) read.units = GltfReadOptions::Units::photometric;
         return read_gltf(options.path, read);
     }
-    if (!std::filesystem::exists(options.path, code))
-        return Error{
-            fmt::format("{}: no such file, and no embedded scene (known: {})", options.path, fmt::join(names, ", "))};
-    GltfReadOptions read;
-    read.uv_set = options.uv_set;
-    if (options.photometric) read.units = GltfReadOptions::Units::photometric;
-    auto loaded = read_gltf(options.path, read);
-    if (!loaded) return loaded.error();
-    std::vector<std::string> warnings;
-    for (const auto& warning : loaded->warnings) warnings.push_back(options.path + ": " + warning);
-    return LoadedScene{std::move(loaded->scene), std::filesystem::path(options.path).filename().string(),
-                       std::move(warnings)};
+    return Error{
+        fmt::format("{}: no such file, and no embedded scene (known: {})", options.path, fmt::join(names, ", "))};
 }
 
 Status set_file_environment(LoadedScene& scene, const std::string& path, const ReadOptions& read) {
