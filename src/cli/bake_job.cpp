@@ -233,6 +233,9 @@ Status run_job(const BakeJob& job, JobStart start, std::span<const fs::path> sha
     if (job.page) {
         RenderOptions pictures;
         pictures.threads = job.bake.threads;
+        pictures.width = job.picture_width;
+        pictures.height = job.picture_height;
+        pictures.samples = job.picture_samples;
         pictures.stop = &interrupted;
         pictures.progress = [bar = progress_bar()](double done) {
             if (bar) bar(done);

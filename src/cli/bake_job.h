@@ -23,6 +23,8 @@ struct BakeJob {
     ProbeOptions probes;
     ExrOptions::Precision precision = ExrOptions::Precision::half;  ///< of the pages
     bool page = true;                                               ///< write the HTML page with its pictures
+    std::uint32_t picture_samples = 64;                             ///< of each of their pixels
+    std::size_t picture_width = 640, picture_height = 400;
     std::filesystem::path out;
 };
 
