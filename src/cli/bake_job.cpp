@@ -92,12 +92,13 @@ void print_summary(const Baker& baker, const Bake& bake) {
     if (bake.probes) fmt::print("{} probes\n", bake.probes->size());
 }
 
-Preflight preflight_of(const Baker& baker) {
+/// Without a rate there is no estimate of the time, and no ray is traced.
+Preflight preflight_of(const Baker& baker, std::optional<TraceRate> rate = {}) {
     PreflightOptions options;
     options.state_bytes = baker.sites().bytes();
     options.channels = baker.layout().channels();
     options.samples = baker.options().samples;
-    options.rate = measure_rate(baker.atlas(), baker.texels(), baker.tracer());
+    options.rate = rate;
     return preflight(baker.atlas(), baker.texels(), options);
 }
 
@@ -162,7 +163,8 @@ Status preflight_job(const BakeJob& job) {
     for (const auto& warning : loaded->warnings) complain("lobelia: warning: " + warning);
     const auto baker = Baker::make(loaded->scene, job.bake);
     if (!baker) return baker.error();
-    const Preflight checked = preflight_of(**baker);
+    const Preflight checked =
+        preflight_of(**baker, measure_rate((*baker)->atlas(), (*baker)->texels(), (*baker)->tracer()));
     if (auto status = write_preflight(checked, **baker, job.out); !status) return status;
     fmt::print("{}", to_text(checked, loaded->scene));
     return Done{};
