@@ -93,7 +93,7 @@ Status check_kinds(const json& value, std::string_view name, const std::string& 
         const std::string& key = entry.key();
         const json& member = entry.value();
         if (key == "extensions" || key == "extras") continue;
-        const auto at = [&] { return place.empty() ? key : place + "." + key; };
+        const auto at = [&] { return (place.empty() ? "" : place + ".") + key.substr(0, 60); };
         // "indices" is a number in a primitive, an object in a sparse accessor; "target" an object in an animation.
         const bool may_be_object = key == "indices" || key == "target";
         if (is_whole_number(key) && !(may_be_object && member.is_object()) &&
