@@ -154,7 +154,7 @@ Status run_job(const BakeJob& job, JobStart start, std::span<const fs::path> sha
     }
     bake.pages = std::move(pages);
     bake.normals = std::move(guides.normal);
-    if (status = write_bake(job.out, bake); !status) return status;
+    if (status = write_bake(job.out, bake, {.scene = &loaded->scene}); !status) return status;
     print_summary(baker, bake);
     fmt::print("{}\n", (job.out / "bake.json").string());
     return Done{};
