@@ -247,7 +247,7 @@ Status run_job(const BakeJob& job, JobStart start, std::span<const fs::path> sha
         if (interrupted) return stopped(job.out);
         page = std::move(*made_page);
     }
-    if (status = write_bake(job.out, bake); !status) return status;
+    if (status = write_bake(job.out, bake, {.scene = &loaded->scene}); !status) return status;
     if (job.page)
         if (status = write_file_atomically(job.out / "bake.html", page); !status) return status;
     print_summary(baker, bake);
