@@ -3,10 +3,9 @@
 #include <numbers>
 
 #include "lobelia/colour.h"
-#include "lobelia/environment.h"
-#include "lobelia/sky.h"
 #include "scene/embedded.h"
 #include "scene/scene_builder.h"
+#include "scene/sky_light.h"
 
 namespace lobelia {
 namespace {
@@ -340,22 +339,10 @@ void add_cypress(SceneBuilder& builder, const Materials& m, Vec3 foot, float hei
 }
 
 void add_light(Scene& scene, const ColonnadeOptions& options) {
-    SkyOptions sky_options;
-    sky_options.sun_elevation = options.sun_elevation;
-    sky_options.sun_azimuth = options.sun_azimuth;
-    const SunDisc disc = sun_disc(sky_options);
-    PunctualLight sun;
-    sun.name = "sun";
-    sun.kind = PunctualLight::Kind::directional;
-    sun.intensity = disc.radiance * static_cast<float>(disc.solid_angle);
-    sun.direction = disc.direction * -1;
-    sun.angular_radius = static_cast<float>(k_sun_radius * k_pi / 180);
-    scene.lights.push_back(sun);
-
-    const Sky sky(sky_options);
-    const LatLong grid{2 * options.sky_height, options.sky_height};
-    scene.environment = Image(grid.width, grid.height);
-    for (std::size_t i = 0; i < grid.size(); ++i) scene.environment->pixels[i] = sky(grid.direction(i));
+    SkyOptions sky;
+    sky.sun_elevation = options.sun_elevation;
+    sky.sun_azimuth = options.sun_azimuth;
+    set_sky(scene, sky, options.sky_height);
 }
 
 /// A camera at `eye` that looks at `target`.
