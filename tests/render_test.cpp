@@ -151,7 +151,7 @@ TEST(RenderBake, GlossyWallsReflectWhatTheyScatter) {
         Sight sight;
         view.look({&ray, 1}, {&sight, 1});
         ASSERT_EQ(sight.kind, Sight::Kind::baked);
-        const PatchPoint at = view.surfaces().point(sight.hit.triangle, sight.hit.u, sight.hit.v, ray.direction);
+        const SurfacePoint at = view.surfaces().point(sight.hit.triangle, sight.hit.u, sight.hit.v, ray.direction);
         const Vec3 wo{std::sqrt(std::max(0.0f, 1 - std::pow(dot(at.normal, ray.direction), 2.0f))), 0,
                       -dot(at.normal, ray.direction)};
         const Scattered scattered = scatter(at.reflectance, wo, pair(5, s, 0, 1), pair(5, s, 1, 1).a);

@@ -57,7 +57,6 @@ Result<LoadedScene> read_or_make(const SceneOptions& options) {
     const auto names = embedded_scene_names();
     auto scene = embedded_scene(options.path);
     if (scene && !std::filesystem::is_regular_file(options.path, code)) {
-        if (!scene) return scene.error();
         return LoadedScene{*std::move(scene), {}};
     }
     if (std::filesystem::exists(options.path, code)) {
