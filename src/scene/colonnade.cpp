@@ -103,8 +103,8 @@ void add_arcade(SceneBuilder& builder, const Materials& m) {
             column = (column + 1) % edge.x.size();
             const float y = edge.y[i] + v * (k_ceiling - edge.y[i]);
             return PatchPoint{{edge.x[i], y, front ? k_half_wall : -k_half_wall},
-                                {0, 0, front ? 1.0f : -1.0f},
-                                {u * face.size.x, y - k_spring}};
+                              {0, 0, front ? 1.0f : -1.0f},
+                              {u * face.size.x, y - k_spring}};
         });
     }
 
@@ -118,8 +118,8 @@ void add_arcade(SceneBuilder& builder, const Materials& m) {
             const double angle = k_pi * static_cast<double>(u);
             const auto c = static_cast<float>(std::cos(angle)), s = static_cast<float>(std::sin(angle));
             return PatchPoint{{centre - k_arch_radius * c, k_spring + k_arch_radius * s, k_half_wall * (2 * v - 1)},
-                                {c, -s, 0},
-                                {u * soffit.size.x, v * soffit.size.y}};
+                              {c, -s, 0},
+                              {u * soffit.size.x, v * soffit.size.y}};
         });
     }
 }

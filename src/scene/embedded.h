@@ -25,7 +25,7 @@ struct CornellOptions {
 struct ColonnadeOptions {
     double sun_elevation = 31;     ///< [degrees]
     double sun_azimuth = 140;      ///< from -z towards +x [degrees]; 180 shines straight in
-    std::size_t sky_height = 128;  ///< texels of the environment from top to bottom, twice that around
+    std::size_t sky_height = 256;  ///< texels of the environment from top to bottom, twice that around
 };
 [[nodiscard]] Scene colonnade_scene(const ColonnadeOptions& options = {});
 

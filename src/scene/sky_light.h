@@ -9,6 +9,6 @@ namespace lobelia {
 /// Replaces the scene's environment by `sky` and its directional lights by the sun, which has the angular radius of
 /// its disc and the irradiance that the disc gives. The image has `height` rows and twice as many columns.
 /// Preconditions: check(sky), height >= 1.
-void set_sky(Scene& scene, const SkyOptions& sky, std::size_t height = 128);
+void set_sky(Scene& scene, const SkyOptions& sky, std::size_t height = 256);
 
 }  // namespace lobelia

@@ -46,7 +46,7 @@ ordered_json conventions(const Manifest& m) {
         {"irradiance", "E [W/m^2], not divided by pi"},
         {"axes", "right-handed, y up, metres"},
         {"directions", tangent ? "tangent frame: rows x, y, z of the formula, z the shading normal" : "world frame"},
-        {"tangent_frame", tangent ? ordered_json("duff-2017") : ordered_json()},
+        {"tangent_frame", tangent ? ordered_json("frisvad-2012 about (2, 3, 6) / 7") : ordered_json()},
         {"uv", "(0, 0) at the top left, texel centres at + 0.5"},
         {"described_in", "docs/conventions.md and docs/bake-format.md of Lobelia"}};
 }
@@ -81,28 +81,32 @@ std::string to_json_text(const Manifest& m) {
     ordered_json pages = ordered_json::array(), objects = ordered_json::array();
     for (const auto& page : m.pages) pages.push_back(to_json(page));
     for (const auto& object : m.objects) objects.push_back(to_json(object, m));
-    const ordered_json document = {
-        {"lobelia_bake", k_bake_version},
-        {"program", m.program},
-        {"scene", {{"name", m.scene_name}, {"hash", fmt::format("{:016x}", m.scene_hash)}, {"file", or_null(m.scene)}}},
-        {"codec",
-         {{"name", m.options.codec},
-          {"basis", name.basis},
-          {"encoder", name.encoder},
-          {"evaluator", name.evaluator},
-          {"coefficients", m.coefficients},
-          {"frame", k_frame_names[static_cast<std::size_t>(m.options.frame)]}}},
-        {"conventions", conventions(m)},
-        {"layout",
-         {{"width", m.width},
-          {"height", m.height},
-          {"precision", k_precision_names[static_cast<std::size_t>(m.precision)]},
-          {"channels", page_channel_names(PageLayout{m.coefficients})},
-          {"pages", std::move(pages)}}},
-        {"objects", std::move(objects)},
-        {"probes", or_null(m.probes)},
-        {"options", all_fields(m.options)},
-        {"statistics", all_fields(m.statistics)}};
+    const ordered_json document = {{"lobelia_bake", k_bake_version},
+                                   {"program", m.program},
+                                   {"scene",
+                                    {{"name", m.scene_name},
+                                     {"hash", fmt::format("{:016x}", m.scene_hash)},
+                                     {"file", or_null(m.scene)},
+                                     {"environment", or_null(m.environment)}}},
+                                   {"warnings", m.warnings},
+                                   {"codec",
+                                    {{"name", m.options.codec},
+                                     {"basis", name.basis},
+                                     {"encoder", name.encoder},
+                                     {"evaluator", name.evaluator},
+                                     {"coefficients", m.coefficients},
+                                     {"frame", k_frame_names[static_cast<std::size_t>(m.options.frame)]}}},
+                                   {"conventions", conventions(m)},
+                                   {"layout",
+                                    {{"width", m.width},
+                                     {"height", m.height},
+                                     {"precision", k_precision_names[static_cast<std::size_t>(m.precision)]},
+                                     {"channels", page_channel_names(PageLayout{m.coefficients})},
+                                     {"pages", std::move(pages)}}},
+                                   {"objects", std::move(objects)},
+                                   {"probes", or_null(m.probes)},
+                                   {"options", all_fields(m.options)},
+                                   {"statistics", all_fields(m.statistics)}};
     return document.dump(1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 

@@ -91,6 +91,10 @@ function show_layer(number) {
     const layer = current_layer();
     by_id("layer-title").replaceChildren(element("strong", layer.title), layer.note ? `  ${layer.note}` : "");
     by_id("layer-legend").replaceChildren(...[layer_legend(layer)].filter(Boolean));
+    // The viewer asks the canvas for its size, which must be there before it is painted.
+    const picture = layer_picture(layer, shown.page);
+    if (picture) [by_id("viewer-canvas").width, by_id("viewer-canvas").height] = [picture.width, picture.height];
+    viewer.apply();
     repaint("#viewer-canvas");
 }
 
@@ -172,28 +176,32 @@ function build_viewer() {
     );
 }
 
-/// Coefficients of one gain: the mean of their largest is a quarter of white.
+/// Mean of the magnitudes of a layer's values on all pages, and the share of them that lies below 0.
+function layer_range(layer) {
+    let sum = 0,
+        count = 0,
+        below = 0;
+    for (const picture of bake.pages.map((_, page) => layer_picture(layer, page)).filter(Boolean))
+        for (const x of picture.data) {
+            if (x === 0) continue;
+            sum += Math.abs(x);
+            count += 1;
+            below += Math.max(0, -x);
+        }
+    return { mean: count ? sum / count : 0, below: sum > 0 ? below / sum : 0 };
+}
+
+/// Coefficients that are light are shown with one gain, those that may be negative with another, so that each kind can
+/// be told apart among itself: the largest mean magnitude is a quarter of white, or half of the way from grey to it.
 function scale_coefficients() {
-    const layers = bake.layers.filter(({ kind }) => kind === "coefficient");
-    let largest = 0;
-    for (const layer of layers) {
-        const pictures = bake.pages.map((_, page) => layer_picture(layer, page)).filter(Boolean);
-        let sum = 0,
-            count = 0,
-            least = 0;
-        for (const { data } of pictures)
-            for (const x of data) {
-                if (x === 0) continue;
-                sum += Math.abs(x);
-                count += 1;
-                least = Math.min(least, x);
-            }
-        const mean = count ? sum / count : 0;
-        largest = Math.max(largest, mean);
-        // A little below 0 is an error of the fit; more is what the coefficient means.
-        layer.kind = least < -0.5 * mean ? "signed" : "light";
+    const ranges = bake.layers.filter(({ kind }) => kind === "coefficient").map((layer) => ({ layer, ...layer_range(layer) }));
+    // A little below 0 is an error of the fit; more is what the coefficient means.
+    for (const { layer, below } of ranges) layer.kind = below > 0.1 ? "signed" : "light";
+    for (const [kind, target] of [["light", 0.25], ["signed", 1]]) {
+        const of_kind = ranges.filter(({ layer }) => layer.kind === kind);
+        const largest = Math.max(0, ...of_kind.map(({ mean }) => mean));
+        for (const { layer } of of_kind) layer.factor = largest > 0 ? target / (largest * automatic_gain) : 1;
     }
-    for (const layer of layers) layer.factor = largest > 0 ? 0.25 / (largest * automatic_gain) : 1;
 }
 
 function build_pages() {
