@@ -212,6 +212,9 @@ Status run_job(const BakeJob& job, JobStart start, std::span<const fs::path> sha
     options.frame = baker.in_tangent_frame() ? Frame::tangent : Frame::world;
     bake.manifest = make_manifest(loaded->scene, baker.atlas(), options, baker.statistics());
     bake.manifest.precision = job.precision;
+    if (job.finish.denoise == Switch::on) bake.manifest.finish.emplace_back("denoise");
+    if (job.finish.seams == Switch::on) bake.manifest.finish.emplace_back("seams");
+    if (job.finish.dilate == Switch::on) bake.manifest.finish.emplace_back("dilate");
     std::vector<Page>& pages = baker.pages();
     Guides guides = make_guides(baker.atlas(), map_texels(baker.atlas()));
     denoise_if(job.finish.denoise, pages, baker, guides);
