@@ -177,6 +177,9 @@ Status JobRun::finish() {
     options.frame = baker_->in_tangent_frame() ? Frame::tangent : Frame::world;
     bake_.manifest = make_manifest(loaded_->scene, baker_->atlas(), options, baker_->statistics());
     bake_.manifest.precision = job_.precision;
+    if (job_.finish.denoise == Switch::on) bake_.manifest.finish.emplace_back("denoise");
+    if (job_.finish.seams == Switch::on) bake_.manifest.finish.emplace_back("seams");
+    if (job_.finish.dilate == Switch::on) bake_.manifest.finish.emplace_back("dilate");
     Guides guides = make_guides(baker_->atlas(), map_texels(baker_->atlas()));
     if (auto status = finish_pages(guides); !status) return status;
     bake_.normals = std::move(guides.normal);
