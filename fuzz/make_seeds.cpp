@@ -14,9 +14,12 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "gltf_files.h"
 #include "io/write_file.h"
 #include "io/write_image.h"
 #include "io_files.h"
+#include "scene/embedded.h"
+#include "scene/gltf_write.h"
 
 namespace {
 
@@ -86,6 +89,17 @@ bool write_ldr_seeds(const std::filesystem::path& folder) {
     return done;
 }
 
+bool write_gltf_seeds(const std::filesystem::path& folder) {
+    const GltfFile square = square_file(), rich = rich_file();
+    GltfFile external = square;
+    external.root["buffers"] = nlohmann::json::array({{{"byteLength", 60}, {"uri", "data.bin"}}});
+    external.binary.clear();
+    return write(folder, "square.gltf", square.gltf()) && write(folder, "square.glb", square.glb()) &&
+           write(folder, "rich.gltf", rich.gltf()) && write(folder, "rich.glb", rich.glb()) &&
+           write(folder, "external.gltf", external.gltf()) &&
+           write(folder, "cornell.glb", encode_glb(cornell_scene()).value());
+}
+
 }  // namespace
 
 int main(int count, char** arguments) {
@@ -94,8 +108,8 @@ int main(int count, char** arguments) {
         return 2;
     }
     const std::filesystem::path folder = arguments[1];
-    for (const char* kind : {"hdr", "exr", "ldr"}) std::filesystem::create_directories(folder / kind);
-    const bool done =
-        write_hdr_seeds(folder / "hdr") && write_exr_seeds(folder / "exr") && write_ldr_seeds(folder / "ldr");
+    for (const char* kind : {"hdr", "exr", "ldr", "gltf"}) std::filesystem::create_directories(folder / kind);
+    const bool done = write_hdr_seeds(folder / "hdr") && write_exr_seeds(folder / "exr") &&
+                      write_ldr_seeds(folder / "ldr") && write_gltf_seeds(folder / "gltf");
     return done ? 0 : 1;
 }

@@ -134,7 +134,7 @@ TEST_F(BakeOutput, HostileManifestsAreRefusedWithTheirPlace) {
         {"page-1.exr", "C:page.exr", "layout.pages[1].file: not the name of a file"},
         {"page-1.exr", "page-0.exr", "named twice"},
         {"page-1.exr", "page-9.exr", "page-9.exr: cannot be read"},
-        {"probes.json", "bake.jsonn", "bake.jsonn: no such file"},
+        {"probes.json", "bake.jsonn", "bake.jsonn: cannot be read: No such file"},
         {"\"page\": 1", "\"page\": 2", "objects[2].page: not a whole number from 0 to 1"},
         {"\"page\": 1", "\"page\": -1", "objects[2].page"},
         {"\"seconds\": 1.5", "\"seconds\": 1e999", "beyond double precision"},

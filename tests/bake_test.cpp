@@ -86,7 +86,7 @@ TEST(Bake, IsTheSameInRegionsThatFitTheMemory) {
     BakeOptions options = small_options();
     const auto whole = baked(closed_box(), options);
     // Bisect for a memory that makes several regions.
-    for (options.memory = 8u << 20; options.memory > 1000; options.memory -= options.memory / 16) {
+    for (options.memory = 80u << 20; options.memory > 1000; options.memory -= 1u << 18) {
         const auto bake = Baker::make(closed_box(), options);
         if (!bake) break;
         if ((*bake)->plan().regions.size() < 3) continue;

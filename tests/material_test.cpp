@@ -39,9 +39,9 @@ TEST(Reflection, SampleAgreesWithPdfAndValue) {
                 if (sample.pdf == 0) continue;
                 EXPECT_GT(sample.wi.z, 0);
                 EXPECT_NEAR(length(sample.wi), 1, 1e-5);
-                const float pdf = scatter_pdf(s, wo, sample.wi);
+                const float pdf = reflect(s, wo, sample.wi).pdf;
                 EXPECT_NEAR(sample.pdf, pdf, 1e-4 * pdf);
-                const Rgb value = reflected(s, wo, sample.wi);
+                const Rgb value = reflect(s, wo, sample.wi).value;
                 EXPECT_NEAR(sample.weight.r * pdf, value.r, 1e-4 * value.r);
                 EXPECT_NEAR(sample.weight.b * pdf, value.b, 1e-4 * value.b);
             }
@@ -60,7 +60,7 @@ TEST(Reflection, SamplesFollowPdf) {
                                 turn = (static_cast<float>(x) + 0.5f) / (columns * fine);
                     const double share = 2 * k_pi / (rows * columns * fine * fine);
                     expected[y / fine * columns + x / fine] +=
-                        count * share * static_cast<double>(scatter_pdf(s, wo, around_z(z, turn)));
+                        count * share * static_cast<double>(reflect(s, wo, around_z(z, turn)).pdf);
                 }
             // The rest are directions below the horizon.
             expected.back() = count;
@@ -131,7 +131,7 @@ TEST(Reflection, IsReciprocal) {
     for (const Reflectance& s : reflectances())
         for (std::uint32_t i = 0; i < 64; ++i) {
             const Vec3 a = cosine_direction(point_of(2 * i)), b = cosine_direction(point_of(2 * i + 1));
-            const float there = reflected(s, a, b).r / b.z, back = reflected(s, b, a).r / a.z;
+            const float there = reflect(s, a, b).value.r / b.z, back = reflect(s, b, a).value.r / a.z;
             EXPECT_NEAR(there, back, 2e-4 * there);
         }
 }
@@ -140,7 +140,7 @@ TEST(Reflection, DiffuseIsLambert) {
     const Reflectance s = make_reflectance(test::matte({0.5f, 0.25f, 1}), {0.5f, 0.25f, 1}, 0, 0.3f);
     EXPECT_FALSE(s.has_layer);
     const Vec3 wi = normalize(Vec3{1, 1, 2});
-    EXPECT_NEAR(reflected(s, {0, 0, 1}, wi).g, 0.25 * wi.z / k_pi, 1e-7);
+    EXPECT_NEAR(reflect(s, {0, 0, 1}, wi).value.g, 0.25 * wi.z / k_pi, 1e-7);
 }
 
 TEST(Reflection, FresnelAtNormalIncidenceFollowsTheIndex) {
@@ -200,6 +200,16 @@ TEST(Directions, CosSinTurnsIsExactEnough) {
         ASSERT_NEAR(c, std::cos(2 * k_pi * static_cast<double>(t)), 3e-7);
         ASSERT_NEAR(s, std::sin(2 * k_pi * static_cast<double>(t)), 3e-7);
     }
+}
+
+TEST(Directions, AnglesAreExactEnough) {
+    for (int i = -100000; i <= 100000; ++i) {
+        const double turn = i / 200000.0;
+        const auto s = static_cast<float>(std::sin(2 * k_pi * turn)), c = static_cast<float>(std::cos(2 * k_pi * turn));
+        ASSERT_NEAR(turns_of(s, c), std::atan2(static_cast<double>(s), static_cast<double>(c)) / (2 * k_pi), 1e-7);
+        ASSERT_NEAR(rough_half_turns_of(c), std::acos(static_cast<double>(c)) / k_pi, 2.2e-5);
+    }
+    EXPECT_EQ(turns_of(0, 0), 0);
 }
 
 }  // namespace

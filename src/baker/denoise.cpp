@@ -7,25 +7,14 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <optional>
 
+#include "baker/atrous.h"
 #include "baker/finish.h"
 #include "baker/nearest.h"
 
 namespace lobelia {
 namespace {
-
-/// Half of a texel's neighbours; the other half has it as theirs. Binomial weights beside the centre's 1/4.
-struct Tap {
-    int x, y;
-    float weight;
-};
-constexpr std::array<Tap, 4> k_taps = {Tap{1, 0, 1.0f / 8}, {-1, 1, 1.0f / 16}, {0, 1, 1.0f / 8}, {1, 1, 1.0f / 16}};
-constexpr float k_centre = 1.0f / 4;
-
-/// Independent errors of weighted values add by the squares of their weights. After the first pass neighbours have
-/// texels in common: a full kernel leaves about half the variance along each axis, not 3/8. This exponent says so, and
-/// leaves a texel alone that has no neighbours.
-constexpr float k_exponent_of_first = 2, k_exponent_of_later = 1.7f;
 
 /// Between normals, and between the surface and the line to a neighbour [radians]: one standard deviation.
 constexpr float k_bend = 0.15f;
@@ -45,40 +34,28 @@ class PageDenoiser {
     void run(std::span<const double> integrals, double domain_solid_angle);
 
   private:
-    /// How values of a plane are averaged: ratio skips NaN (no ratio known), variance raises the weights.
-    enum class Kind { plain, ratio, variance };
-
     template <class Visit>
     void for_each_usable(const Visit& visit) const;
     void divide(std::span<const double> integrals, double domain_solid_angle);
     void multiply();
     void find_spacing();
     void smooth_variance();
-    void weigh(int step);
-    [[nodiscard]] float weight(std::size_t i, std::size_t j, float step) const;
-    [[nodiscard]] float geometric_weight(std::size_t i, std::size_t j, float step) const;
-    void spread_all(int step);
-    template <Kind kind>
-    void spread(const std::vector<float>& from, std::vector<float>& to, int step) const;
+    /// Sets the weights of a step: each tap's own times weight(i, j), i and j being usable and of one chart.
+    template <class Weight>
+    void weigh(std::size_t step, const Weight& weight);
+    /// The exponent by which geometry alone weighs texels, 0 or less; none where they are no neighbours.
+    [[nodiscard]] std::optional<float> geometry(std::size_t i, std::size_t j) const;
+    [[nodiscard]] float weight(std::size_t i, std::size_t j) const;
+    void average_all();
 
     [[nodiscard]] bool usable(std::size_t i) const { return is_usable(page_, i, options_.least_validity); }
-    /// The texel that tap k reaches from (x, y), if it lies on the page.
-    [[nodiscard]] bool reach(std::size_t x, std::size_t y, int dx, int dy) const {
-        const auto px = static_cast<std::ptrdiff_t>(x) + dx, py = static_cast<std::ptrdiff_t>(y) + dy;
-        return px >= 0 && py >= 0 && px < static_cast<std::ptrdiff_t>(page_.width) &&
-               py < static_cast<std::ptrdiff_t>(page_.height);
-    }
-    [[nodiscard]] std::ptrdiff_t offset(int dx, int dy) const {
-        return static_cast<std::ptrdiff_t>(page_.width) * dy + dx;
-    }
-
     Page& page_;
     const PageLayout& layout_;
     std::span<const Vec3> position_, normal_;
     const DenoiseOptions& options_;
-    std::array<std::vector<float>, 3> brightness_;           ///< by channel
-    std::vector<float> spacing_;                             ///< of neighbours in the world, squared
-    std::vector<std::array<float, k_taps.size()>> weights_;  ///< of each texel's taps at this step
+    std::array<std::vector<float>, 3> brightness_;  ///< by channel
+    std::vector<float> spacing_;                    ///< of neighbours in the world, squared
+    AtrousWeights weights_;
     tbb::enumerable_thread_specific<std::vector<float>> work_;
 };
 
@@ -91,17 +68,19 @@ void PageDenoiser::for_each_usable(const Visit& visit) const {
 }
 
 void PageDenoiser::run(std::span<const double> integrals, double domain_solid_angle) {
-    auto& error = page_.planes[layout_.error()];
     divide(integrals, domain_solid_angle);
     // An error that nobody knows counts as none.
+    auto& error = page_.planes[layout_.error()];
     for_each_usable(
         [&](std::size_t i, std::size_t, std::size_t) { error[i] = std::isfinite(error[i]) ? error[i] * error[i] : 0; });
+    weights_.width = page_.width;
+    weights_.height = page_.height;
+    for (auto& plane : weights_.weight) plane.assign(page_.size(), 0);
     find_spacing();
-    weights_.resize(page_.size());
     smooth_variance();
     for (int level = 0; level < std::clamp(options_.passes, 1, 6); ++level) {
-        weigh(1 << level);
-        spread_all(1 << level);
+        weigh(std::size_t{1} << level, [&](std::size_t i, std::size_t j) { return weight(i, j); });
+        average_all();
     }
     for_each_usable([&](std::size_t i, std::size_t, std::size_t) { error[i] = std::sqrt(error[i]); });
     multiply();
@@ -137,117 +116,93 @@ void PageDenoiser::multiply() {
     });
 }
 
+template <class Weight>
+void PageDenoiser::weigh(std::size_t step, const Weight& weight) {
+    weights_.step = step;
+    for_each_usable([&](std::size_t i, std::size_t x, std::size_t y) {
+        for (std::size_t k = 0; k < k_atrous_taps.size(); ++k) {
+            const AtrousTap& tap = k_atrous_taps[k];
+            const auto there_x = static_cast<std::ptrdiff_t>(x) + tap.x * static_cast<std::ptrdiff_t>(step);
+            const std::size_t there_y = y + static_cast<std::size_t>(tap.y) * step;
+            float& result = weights_.weight[k][i];
+            result = 0;
+            if (there_x < 0 || there_x >= static_cast<std::ptrdiff_t>(page_.width) || there_y >= page_.height) continue;
+            const std::size_t j = there_y * page_.width + static_cast<std::size_t>(there_x);
+            if (usable(j) && page_.chart[i] == page_.chart[j]) result = tap.weight * weight(i, j);
+        }
+    });
+}
+
 void PageDenoiser::find_spacing() {
     spacing_.assign(page_.size(), 0);
     for_each_usable([&](std::size_t i, std::size_t x, std::size_t y) {
-        for (const auto& [dx, dy] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
-            if (!reach(x, y, dx, dy)) continue;
-            const std::size_t j = i + static_cast<std::size_t>(offset(dx, dy));
-            if (!usable(j) || page_.chart[j] != page_.chart[i]) continue;
+        const auto look = [&](bool on_page, std::size_t j) {
+            if (!on_page || !usable(j) || page_.chart[j] != page_.chart[i]) return;
             const Vec3 d = position_[j] - position_[i];
             spacing_[i] = std::max(spacing_[i], dot(d, d));
-        }
+        };
+        look(x > 0, i - 1);
+        look(x + 1 < page_.width, i + 1);
+        look(y > 0, i - page_.width);
+        look(y + 1 < page_.height, i + page_.width);
     });
 }
 
 /// The error is itself measured, and noisy: averages it over 3 x 3 texels by geometry alone.
 void PageDenoiser::smooth_variance() {
-    for_each_usable([&](std::size_t i, std::size_t x, std::size_t y) {
-        for (std::size_t k = 0; k < k_taps.size(); ++k) {
-            const bool on_page = reach(x, y, k_taps[k].x, k_taps[k].y);
-            const std::size_t j = on_page ? i + static_cast<std::size_t>(offset(k_taps[k].x, k_taps[k].y)) : i;
-            weights_[i][k] = on_page ? k_taps[k].weight * geometric_weight(i, j, 1) : 0;
-        }
+    weigh(1, [&](std::size_t i, std::size_t j) {
+        const std::optional<float> exponent = geometry(i, j);
+        return exponent ? std::exp(*exponent) : 0;
     });
     auto& error = page_.planes[layout_.error()];
     std::vector<float> smooth(page_.size());
-    spread<Kind::plain>(error, smooth, 1);
+    average(weights_, AtrousMean::values, error, smooth);
     error.swap(smooth);
 }
 
-float PageDenoiser::geometric_weight(std::size_t i, std::size_t j, float step) const {
-    if (!usable(j) || page_.chart[i] != page_.chart[j]) return 0;
+std::optional<float> PageDenoiser::geometry(std::size_t i, std::size_t j) const {
     const Vec3 d = position_[j] - position_[i];
-    const float squared = dot(d, d);
-    if (squared > k_gap * k_gap * step * step * std::max(spacing_[i], spacing_[j])) return 0;
+    const float squared = dot(d, d), reach = k_gap * static_cast<float>(weights_.step);
+    if (squared > reach * reach * std::max(spacing_[i], spacing_[j])) return std::nullopt;
     // The squared angle between the normals, and that of the line to either surface, for small angles.
     const float bend = 2 * std::max(0.0f, 1 - dot(normal_[i], normal_[j]));
     const float above = dot(normal_[i], d), below = dot(normal_[j], d);
     const float rise = squared > 0 ? std::max(above * above, below * below) / squared : 0;
-    return std::exp(-(bend + rise) / (2 * k_bend * k_bend));
+    return -(bend + rise) / (2 * k_bend * k_bend);
 }
 
-float PageDenoiser::weight(std::size_t i, std::size_t j, float step) const {
-    const float geometric = geometric_weight(i, j, step);
-    if (geometric == 0) return 0;
+float PageDenoiser::weight(std::size_t i, std::size_t j) const {
     const auto& error = page_.planes[layout_.error()];
-    const float luminous[3] = {0.2126f, 0.7152f, 0.0722f};
+    const float variance = options_.strength * options_.strength * (error[i] + error[j]);
+    if (!(variance > 0)) return 0;
+    const std::optional<float> exponent = geometry(i, j);
+    if (!exponent) return 0;
+    constexpr float luminous[3] = {0.2126f, 0.7152f, 0.0722f};
     float difference = 0, sum = 0;
     for (std::size_t k = 0; k < 3; ++k) {
         const auto& E = page_.planes[layout_.irradiance(k)];
         difference += luminous[k] * std::abs(E[i] - E[j]);
         sum += luminous[k] * (std::abs(E[i]) + std::abs(E[j]));
     }
-    const float variance = options_.strength * options_.strength * (error[i] + error[j]);
     const float quiet = k_quiet * sum / 2;
-    if (!(variance > 0)) return 0;
-    return geometric * std::exp(-difference * difference / (2 * variance)) * variance / (variance + quiet * quiet);
+    return std::exp(*exponent - difference * difference / (2 * variance)) * variance / (variance + quiet * quiet);
 }
 
-void PageDenoiser::weigh(int step) {
-    for_each_usable([&](std::size_t i, std::size_t x, std::size_t y) {
-        for (std::size_t k = 0; k < k_taps.size(); ++k) {
-            const int dx = k_taps[k].x * step, dy = k_taps[k].y * step;
-            weights_[i][k] = reach(x, y, dx, dy)
-                                 ? k_taps[k].weight *
-                                       weight(i, i + static_cast<std::size_t>(offset(dx, dy)), static_cast<float>(step))
-                                 : 0;
-        }
-    });
-}
-
-void PageDenoiser::spread_all(int step) {
-    // Coefficients, irradiance, error; then the brightness.
+void PageDenoiser::average_all() {
+    // Ratios, irradiance, error; then the brightness.
     const std::size_t channels = layout_.channels();
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, channels + 3, 1), [&](const auto& range) {
         std::vector<float>& work = work_.local();
         for (std::size_t c = range.begin(); c != range.end(); ++c) {
+            AtrousMean mean = c < 3 * layout_.coefficients ? AtrousMean::known_values : AtrousMean::values;
+            if (c == layout_.error())
+                mean = weights_.step == 1 ? AtrousMean::first_variances : AtrousMean::later_variances;
             std::vector<float>& plane = c < channels ? page_.planes[c] : brightness_[c - channels];
             work.resize(page_.size());
-            if (c == layout_.error())
-                spread<Kind::variance>(plane, work, step);
-            else if (c < 3 * layout_.coefficients)
-                spread<Kind::ratio>(plane, work, step);
-            else
-                spread<Kind::plain>(plane, work, step);
+            average(weights_, mean, plane, work);
             plane.swap(work);
         }
     });
-}
-
-template <PageDenoiser::Kind kind>
-void PageDenoiser::spread(const std::vector<float>& from, std::vector<float>& to, int step) const {
-    const float exponent = step == 1 ? k_exponent_of_first : k_exponent_of_later;
-    for (std::size_t y = 0; y < page_.height; ++y)
-        for (std::size_t x = 0; x < page_.width; ++x) {
-            const std::size_t i = y * page_.width + x;
-            to[i] = from[i];
-            if (!usable(i)) continue;
-            float sum = 0, total = 0;
-            const auto add = [&](std::size_t j, float weight) {
-                if (kind == Kind::ratio && std::isnan(from[j])) return;
-                sum += (kind == Kind::variance ? std::pow(weight, exponent) : weight) * from[j];
-                total += weight;
-            };
-            add(i, k_centre);
-            for (std::size_t k = 0; k < k_taps.size(); ++k) {
-                const int dx = k_taps[k].x * step, dy = k_taps[k].y * step;
-                const auto there = static_cast<std::size_t>(offset(dx, dy));
-                if (weights_[i][k] > 0) add(i + there, weights_[i][k]);
-                if (reach(x, y, -dx, -dy) && weights_[i - there][k] > 0) add(i - there, weights_[i - there][k]);
-            }
-            if (total > 0) to[i] = sum / (kind == Kind::variance ? std::pow(total, exponent) : total);
-        }
 }
 
 }  // namespace

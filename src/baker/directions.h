@@ -43,6 +43,27 @@ struct CosSin {
     }
 }
 
+/// atan2(s, c) in turns, in [-1/2, 1/2], within 1e-7: a minimax polynomial of the arc tangent's odd powers on [0, 1],
+/// good to 4e-8, and reflections.
+[[nodiscard]] inline float turns_of(float s, float c) {
+    const float across = std::fabs(s), along = std::fabs(c), longer = std::fmax(across, along);
+    const float a = longer > 0 ? std::fmin(across, along) / longer : 0, a2 = a * a;
+    float turns = 0.00108413096f;
+    for (const float k : {-0.00534827899f, 0.0126725024f, -0.0210615188f, 0.0315251178f, -0.0530262382f, 0.159154324f})
+        turns = turns * a2 + k;
+    turns *= a;
+    if (across > along) turns = 0.25f - turns;
+    if (c < 0) turns = 0.5f - turns;
+    return std::copysign(turns, s);
+}
+/// acos(c) in half turns, for c in [-1, 1], within 2.2e-5: sqrt(1 - |c|) times a minimax polynomial, and a reflection.
+[[nodiscard]] inline float rough_half_turns_of(float c) {
+    const float x = std::fmin(std::fabs(c), 1.0f);
+    const float t =
+        std::sqrt(1 - x) * (0.499978512f + x * (-0.0675183782f + x * (0.0236384388f + x * -0.00596190257f)));
+    return c < 0 ? 1 - t : t;
+}
+
 /// Directions about z: height a map of point.a, azimuth a turn times point.b.
 [[nodiscard]] inline Vec3 around_z(float z, float turn) {
     const float r = std::sqrt(std::fmax(0.0f, 1 - z * z));

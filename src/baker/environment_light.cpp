@@ -36,25 +36,26 @@ EnvironmentLight::EnvironmentLight(const Image& image, Choice choice) : image_(&
     assert(total > 0);
     rows_.emplace_back(row_weights);
     mean_luminance_ = static_cast<float>(total);
+    density_ = static_cast<float>(1 / (4 * k_pi * total));
 }
 
 EnvironmentLight::Texel EnvironmentLight::texel(Vec3 direction) const {
-    // As LatLong::index, in single precision; rows by the same table from which directions are sampled.
-    constexpr auto per_turn = static_cast<float>(1 / (2 * k_pi)), per_half_turn = static_cast<float>(1 / k_pi);
+    // As LatLong::index, but in single precision, and with rows parted by the table that directions are sampled from. A
+    // row is 2.2e-5 of half a turn or more up to 45,000 rows, hence the guess is off by one at most.
     const auto cell = [](float at, std::size_t n) {
         return std::min(static_cast<std::size_t>(std::max(0.0f, at) * static_cast<float>(n)), n - 1);
     };
-    const float turn = 0.5f + std::atan2(direction.x, -direction.z) * per_turn;
-    std::size_t y = cell(std::acos(std::clamp(direction.y, -1.0f, 1.0f)) * per_half_turn, image_->height);
+    std::size_t y = cell(rough_half_turns_of(direction.y), image_->height);
     if (y > 0 && direction.y > cosine_[y]) --y;
     if (y + 1 < image_->height && direction.y < cosine_[y + 1]) ++y;
-    return {cell(turn, image_->width), y};
+    return {cell(0.5f + turns_of(direction.x, -direction.z), image_->width), y};
 }
 
-float EnvironmentLight::texel_pdf(Texel t) const {
-    const double solid_angle =
-        2 * k_pi * static_cast<double>(cosine_[t.y] - cosine_[t.y + 1]) / static_cast<double>(image_->width);
-    return static_cast<float>(rows_[0].probability(t.y) * columns_[t.y].probability(t.x) / solid_angle);
+EnvironmentSample EnvironmentLight::look(Vec3 direction, Texel t) const {
+    // The probability of a texel is its luminance times its solid angle over the sum of these: over the solid angle,
+    // the latter cancels.
+    const Rgb radiance = image_->at(t.x, t.y);
+    return {direction, radiance, choice_ == Choice::uniform ? k_uniform_pdf : brightness(radiance) * density_};
 }
 
 EnvironmentSample EnvironmentLight::sample(Pair point) const {
@@ -67,13 +68,10 @@ EnvironmentSample EnvironmentLight::sample(Pair point) const {
     const auto turn = static_cast<float>((static_cast<double>(x) + column_rest) / static_cast<double>(image_->width));
     // Column u looks to the azimuth pi (2 u - 1) (docs/conventions.md): half a turn is a change of sign.
     const auto [c, s] = cos_sin_turns(turn);
-    return {{-r * s, height, r * c}, image_->at(x, y), texel_pdf({x, y})};
+    return look({-r * s, height, r * c}, {x, y});
 }
 
-EnvironmentSample EnvironmentLight::at(Vec3 direction) const {
-    const Texel t = texel(direction);
-    return {direction, image_->at(t.x, t.y), choice_ == Choice::uniform ? k_uniform_pdf : texel_pdf(t)};
-}
+EnvironmentSample EnvironmentLight::at(Vec3 direction) const { return look(direction, texel(direction)); }
 
 float EnvironmentLight::pdf(Vec3 direction) const { return at(direction).pdf; }
 

@@ -39,7 +39,7 @@ class EnvironmentLight {
         std::size_t x, y;
     };
     [[nodiscard]] Texel texel(Vec3 direction) const;
-    [[nodiscard]] float texel_pdf(Texel texel) const;
+    [[nodiscard]] EnvironmentSample look(Vec3 direction, Texel texel) const;
 
     const Image* image_;
     Choice choice_;
@@ -47,6 +47,7 @@ class EnvironmentLight {
     std::vector<AliasTable> rows_;
     std::vector<AliasTable> columns_;  ///< one for each row
     float mean_luminance_ = 0;
+    float density_ = 0;  ///< pdf over the texel's luminance
 };
 
 }  // namespace lobelia

@@ -26,10 +26,81 @@ Vec3 sample_direction(Domain domain, DirectionChoice choice, Pair point) {
     return cosine_direction({2 * point.a - 1, point.b});
 }
 
-Vec3 receiver_direction(const Receiver& receiver, DirectionChoice choice, std::uint32_t sample, std::uint32_t seed) {
-    const Vec3 local = sample_direction(receiver.domain, choice, pair(receiver.key, sample, 0, seed));
-    return receiver.domain == Domain::sphere ? local : Axes(receiver.normal).world(local);
+/// Lets a receiver's paths set out in the directions of its sequence.
+void set_out(const Receiver& receiver, std::uint32_t first, DirectionChoice choice, std::uint32_t seed,
+             std::span<PathStart> starts) {
+    assert(!receiver.positions.empty());
+    assert(receiver.domain == Domain::hemisphere || choice == DirectionChoice::uniform);
+    const Axes axes(receiver.normal);
+    const std::uint32_t mixed_key = mix(receiver.key, seed);
+    for (std::size_t i = 0; i < starts.size(); ++i) {
+        const auto s = static_cast<std::uint32_t>(first + i);
+        const Vec3 local = sample_direction(receiver.domain, choice, pair_of(mixed_key, s, 0));
+        starts[i] = {receiver.positions[s % receiver.positions.size()],
+                     receiver.domain == Domain::sphere ? local : axes.world(local), receiver.key, s};
+    }
 }
+
+/// Where a receiver's samples go: those of its paths, of the dark below its horizon, and of light sources.
+struct Places {
+    Samples* samples;
+    std::size_t paths, dark, sources;
+};
+
+/// Turns what arrived at one receiver into samples and an estimate of its irradiance.
+class Receiving {
+  public:
+    Receiving(const Receiver& receiver, DirectionChoice choice, Gathered& gathered, const Places& places)
+        : receiver_(receiver),
+          choice_(choice),
+          gathered_(gathered),
+          places_(places),
+          uniform_(static_cast<float>(1 / solid_angle(receiver.domain))) {}
+
+    void add_path(std::size_t i, Vec3 direction, const Incident& in) {
+        const float cosine = weight_of(direction), pdf = direction_pdf(receiver_.domain, choice_, cosine);
+        Rgb radiance;
+        if (in.back_face) {
+            ++gathered_.back_faces;
+        } else {
+            radiance = in.scattered + in.emitted * (pdf / (pdf + in.source_pdf));
+        }
+        put(places_.paths + i, direction, radiance, uniform_ / pdf);
+        gathered_.irradiance = gathered_.irradiance + radiance * (cosine / pdf);
+    }
+
+    /// A light source of irradiance E across the beam is radiance E / solid angle; `otherwise` is the direction of
+    /// none.
+    void add_source(std::size_t i, const DirectLight& light, Vec3 otherwise) {
+        const bool none = is_black(light.irradiance);
+        const Vec3 direction = none ? otherwise : light.direction;
+        const float cosine = weight_of(direction);
+        const float other = light.pdf > 0 ? direction_pdf(receiver_.domain, choice_, cosine) : 0;
+        const Rgb irradiance = light.irradiance * (light.pdf > 0 ? light.pdf / (light.pdf + other) : 1);
+        put(places_.sources + i, direction, irradiance * (uniform_ / k_splat_share), k_splat_share);
+        gathered_.irradiance = gathered_.irradiance + irradiance * cosine;
+    }
+
+    void add_dark(std::size_t i, Vec3 direction) {
+        const Vec3 below = direction - receiver_.normal * (2 * dot(direction, receiver_.normal));
+        put(places_.dark + i, below, {}, 1);
+    }
+
+  private:
+    /// With which weight radiance counts: its cosine, or what makes pi times the mean radiance of a sphere.
+    [[nodiscard]] float weight_of(Vec3 direction) const {
+        return receiver_.domain == Domain::sphere ? 0.25f : std::max(0.0f, dot(direction, receiver_.normal));
+    }
+    void put(std::size_t at, Vec3 direction, Rgb radiance, float share) const {
+        places_.samples->set(at, {rotate(receiver_.frame_from_world, direction), radiance, share});
+    }
+
+    const Receiver& receiver_;
+    DirectionChoice choice_;
+    Gathered& gathered_;
+    Places places_;
+    float uniform_;  ///< density of uniform directions [1/sr]
+};
 
 }  // namespace
 
@@ -48,62 +119,28 @@ void gather(const PathTracer& tracer, std::span<const Receiver> receivers, Sampl
     buffer.incident_.resize(all);
     buffer.direct_.resize(all);
 
-    // Set out from every receiver in the directions of its sequence.
-    const std::uint32_t seed = tracer.options().seed;
+    // Trace paths from all receivers at once, and aim at light sources.
     for (std::size_t r = 0; r < receivers.size(); ++r) {
-        const Receiver& receiver = receivers[r];
-        assert(!receiver.positions.empty());
-        for (std::size_t i = 0; i < n; ++i) {
-            const auto s = static_cast<std::uint32_t>(samples.first + i);
-            buffer.starts_[r * n + i] = {receiver.positions[s % receiver.positions.size()],
-                                         receiver_direction(receiver, options.directions, s, seed), receiver.key, s};
-            buffer.normals_[r * n + i] = receiver.domain == Domain::sphere ? Vec3{} : receiver.normal;
-        }
+        const std::span starts = std::span(buffer.starts_).subspan(r * n, n);
+        set_out(receivers[r], samples.first, options.directions, tracer.options().seed, starts);
+        const Vec3 normal = receivers[r].domain == Domain::sphere ? Vec3{} : receivers[r].normal;
+        std::fill_n(buffer.normals_.begin() + static_cast<std::ptrdiff_t>(r * n), n, normal);
     }
     tracer.trace(buffer.starts_, buffer.normals_, buffer.incident_, scratch);
     tracer.direct(buffer.starts_, buffer.normals_, buffer.direct_, scratch);
 
     // Turn what arrived into samples.
     for (std::size_t r = 0; r < receivers.size(); ++r) {
-        const Receiver& receiver = receivers[r];
-        const bool sphere = receiver.domain == Domain::sphere;
-        const float share = (sphere ? 4 : 2) * k_pi_f;
-        const float uniform = 1 / share, splat = uniform / k_splat_share;
-        Gathered& gathered = buffer.gathered_[r];
-        Rgb sum;
-        const auto cosine = [&](Vec3 d) { return sphere ? 0.25f : std::max(0.0f, dot(d, receiver.normal)); };
+        const std::size_t first = r * buffer.stride_;
+        Receiving receiving(receivers[r], options.directions, buffer.gathered_[r],
+                            {&buffer.samples_, first, first + n, first + buffer.directions_});
         for (std::size_t i = 0; i < n; ++i) {
-            const Vec3 d = buffer.starts_[r * n + i].direction;
-            const Incident& in = buffer.incident_[r * n + i];
-            const float pdf = direction_pdf(receiver.domain, options.directions, cosine(d));
-            Rgb radiance = in.scattered + in.emitted * (pdf / (pdf + in.source_pdf));
-            if (in.back_face) {
-                radiance = {};
-                ++gathered.back_faces;
-            }
-            const Vec3 out = rotate(receiver.frame_from_world, d);
-            const std::size_t first = r * buffer.stride_;
-            buffer.samples_.set(first + i, {out, radiance, uniform / pdf});
-            sum = sum + radiance * (cosine(d) / pdf);
-
-            const DirectLight& light = buffer.direct_[r * n + i];
-            const float light_cosine = cosine(light.direction);
-            const float weight =
-                light.pdf > 0
-                    ? light.pdf / (light.pdf + direction_pdf(receiver.domain, options.directions, light_cosine))
-                    : 1;
-            const Rgb irradiance = light.irradiance * weight;
-            const bool none = is_black(irradiance);
-            buffer.samples_.set(
-                first + buffer.directions_ + i,
-                {none ? out : rotate(receiver.frame_from_world, light.direction), irradiance * splat, k_splat_share});
-            sum = sum + irradiance * light_cosine;
-            if (dark)
-                buffer.samples_.set(
-                    first + n + i,
-                    {rotate(receiver.frame_from_world, d - receiver.normal * (2 * dot(d, receiver.normal))), {}, 1});
+            const Vec3 direction = buffer.starts_[r * n + i].direction;
+            receiving.add_path(i, direction, buffer.incident_[r * n + i]);
+            receiving.add_source(i, buffer.direct_[r * n + i], direction);
+            if (dark) receiving.add_dark(i, direction);
         }
-        gathered.irradiance = sum * (1 / static_cast<float>(n));
+        buffer.gathered_[r].irradiance = buffer.gathered_[r].irradiance * (1 / static_cast<float>(n));
     }
 }
 

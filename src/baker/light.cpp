@@ -39,7 +39,7 @@ float spot_cone(const PunctualLight& light, float cosine) {
 
 }  // namespace
 
-float Lights::weight(const Group& g, const Vantage& at) const {
+float Lights::weight(const LightGroup& g, const Vantage& at) const {
     if (g.far) return dot(at.normal, g.centre) < -g.radius ? 0 : g.strength;
     const Vec3 v = g.centre - at.position;
     if (dot(at.normal, v) < -g.radius || dot(g.front, at.position) < g.least) return 0;
@@ -52,16 +52,12 @@ float Lights::weigh(const Vantage& at, Weights& weights) const {
     return total;
 }
 
-SkyLight Lights::sky(const Weights& weights, float total, Vec3 direction) const {
-    SkyLight light;
-    const auto probability = [&](const Source& s) { return total > 0 ? s.share * weights[s.group] / total : 0; };
-    if (environment_) {
-        const EnvironmentSample e = environment_->at(direction);
-        light.radiance = e.radiance;
-        if (aimed_at_) light.pdf = probability(sources_[0]) * e.pdf;
-    }
+SkyLight Lights::sky(const Weights& weights, float total, const EnvironmentSample& environment) const {
+    SkyLight light{environment.radiance, 0};
+    const auto probability = [&](const LightSource& s) { return total > 0 ? s.share * weights[s.group] / total : 0; };
+    if (environment_ && aimed_at_) light.pdf = probability(sources_[0]) * environment.pdf;
     for (const Sun& sun : suns_)
-        if (sun.flatness > 0 && in_cap(sun.direction, sun.flatness, direction)) {
+        if (sun.flatness > 0 && in_cap(sun.axes.z, sun.flatness, environment.direction)) {
             light.radiance = light.radiance + sun.radiance;
             if (aimed_at_) light.pdf += probability(sources_[sun.source]) * sun.disc_pdf;
         }
@@ -72,18 +68,18 @@ SkyLight Lights::sky(const Vantage& at, Vec3 direction) const {
     if (!environment_ && suns_.empty()) return {};
     Weights weights;
     const float total = weigh(at, weights);
-    return sky(weights, total, direction);
+    return sky(weights, total, environment_ ? environment_->at(direction) : EnvironmentSample{direction, {}, 0});
 }
 
 float Lights::triangle_pdf(const Vantage& at, std::uint32_t emitter, float distance, float cosine) const {
     if (!aimed_at_) return 0;
     Weights weights;
     const float total = weigh(at, weights);
-    const Source& s = sources_[source_of_emitter_[emitter]];
+    const LightSource& s = sources_[source_of_emitter_[emitter]];
     return total > 0 ? s.share * weights[s.group] / total * distance * distance / (s.area * cosine) : 0;
 }
 
-LightSample Lights::sample_triangle(const Source& source, float probability, const Vantage& at, Pair point) const {
+LightSample Lights::sample_triangle(const LightSource& source, float probability, const Vantage& at, Pair point) const {
     // Choose a point uniformly by area (folding the square along its diagonal would tear strata; the root does not).
     const std::uint32_t triangle = surfaces_->emissive()[source.index];
     const Facet& f = surfaces_->facet(triangle);
@@ -111,6 +107,24 @@ LightSample Lights::sample_punctual(const PunctualLight& light, float probabilit
     return {direction, distance, light.intensity * factor, 0};
 }
 
+LightSample Lights::sample_sky(const LightSource& source, const Weights& weights, float total, Pair point) const {
+    EnvironmentSample environment;
+    if (source.kind == Kind::environment) {
+        environment = environment_->sample(point);
+    } else {
+        const Sun& sun = suns_[source.index];
+        if (sun.flatness == 0) {
+            const float probability = source.share * weights[source.group] / total;
+            return {sun.axes.z, k_infinite, sun.irradiance * (1 / probability), 0};
+        }
+        environment.direction = sun.axes.world(cap_direction(sun.flatness, point));
+        if (environment_) environment = environment_->at(environment.direction);
+    }
+    const SkyLight light = sky(weights, total, environment);
+    if (!(light.pdf > 0)) return {};
+    return {environment.direction, k_infinite, light.radiance * (1 / light.pdf), light.pdf};
+}
+
 LightSample Lights::sample(const Vantage& at, float choice, Pair point) const {
     if (!aimed_at_ || groups_.empty()) return {};
 
@@ -122,29 +136,19 @@ LightSample Lights::sample(const Vantage& at, float choice, Pair point) const {
     std::size_t g = 0;
     while (g + 1 < groups_.size() && rest >= weights[g]) rest -= weights[g++];
     while (weights[g] == 0) --g;  // rounding may step past the last one; the total says that there is one
-    const Group& group = groups_[g];
+    const LightGroup& group = groups_[g];
     std::uint32_t chosen = group.first;
-    if (!group.table.empty()) {
+    if (group.table) {
         const double left = std::clamp(static_cast<double>(rest / weights[g]), 0.0, 1 - 0x1p-53);
-        chosen += static_cast<std::uint32_t>(group.table[0].sample(left).index);
+        chosen += static_cast<std::uint32_t>(group.table->sample(left).index);
     }
 
     // Sample the source itself.
-    const Source& source = sources_[chosen];
+    const LightSource& source = sources_[chosen];
+    if (group.far) return sample_sky(source, weights, total, point);
     const float probability = source.share * weights[g] / total;
     if (source.kind == Kind::triangle) return sample_triangle(source, probability, at, point);
-    if (source.kind == Kind::punctual) return sample_punctual(scene_->lights[source.index], probability, at);
-    Vec3 direction;
-    if (source.kind == Kind::environment) {
-        direction = environment_->sample(point).direction;
-    } else {
-        const Sun& sun = suns_[source.index];
-        if (sun.flatness == 0) return {sun.direction, k_infinite, sun.irradiance * (1 / probability), 0};
-        direction = Axes(sun.direction).world(cap_direction(sun.flatness, point));
-    }
-    const SkyLight light = sky(weights, total, direction);
-    if (!(light.pdf > 0)) return {};
-    return {direction, k_infinite, light.radiance * (1 / light.pdf), light.pdf};
+    return sample_punctual(scene_->lights[source.index], probability, at);
 }
 
 }  // namespace lobelia

@@ -5,7 +5,9 @@
 #include <optional>
 #include <span>
 
+#include "baker/directions.h"
 #include "baker/environment_light.h"
+#include "baker/light_source.h"
 #include "baker/path_tracer.h"
 #include "baker/surface.h"
 
@@ -47,51 +49,32 @@ class Lights {
     [[nodiscard]] SkyLight sky(const Vantage& at, Vec3 direction) const;
 
   private:
-    enum class Kind : std::uint8_t { environment, sun, triangle, punctual };
-    struct Source {
-        Kind kind = Kind::environment;
-        std::uint32_t index = 0;  ///< of the sun, the emissive triangle or the punctual light
-        float strength = 0;       ///< luminance of irradiance (far) or of intensity (near)
-        Vec3 centre;              ///< near: of its bounding sphere; far: direction towards it, or 0: all around
-        float radius = 0;         ///< near: of the sphere; far: sine of the angular radius
-        Vec3 front;               ///< normal of a one-sided triangle, or 0
-        float area = 0;           ///< of a triangle
-        std::uint32_t group = 0;
-        float share = 1;  ///< probability within its group
-    };
-    /// Sources that are chosen between together; each group is weighed for each vantage.
-    struct Group {
-        std::uint32_t first = 0, count = 0;  ///< its sources, which lie together
-        bool far = false;
-        float strength = 0;  ///< as of a source
-        Vec3 centre;
-        float radius = 0;
-        Vec3 front;                     ///< the common normal of one-sided triangles, or 0
-        float least = 0;                ///< the least offset along it from which any of them is seen
-        std::vector<AliasTable> table;  ///< over its sources, where there are several
-    };
+    using Kind = LightSource::Kind;
     /// A disc in the sky, or a parallel beam.
     struct Sun {
-        Vec3 direction;  ///< towards it
+        Axes axes;  ///< z towards it
         Rgb irradiance;
         Rgb radiance;        ///< of the disc
         float flatness = 0;  ///< 1 - cosine of the angular radius; 0: a parallel beam
         float disc_pdf = 0;  ///< uniform over the disc [1/sr]
         std::uint32_t source = 0;
+        Sun(const Axes& a, Rgb e) : axes(a), irradiance(e) {}
     };
     static constexpr std::size_t k_most_groups = 64;
     using Weights = std::array<float, k_most_groups>;
 
-    void add_sky(const PathOptions& options);
+    void add_environment(const PathOptions& options);
+    void add_suns(const PathOptions& options);
     void add_near();
-    void add_group(std::span<const Source> sources, bool far);
-    void split(std::vector<Source> sources);
+    void add_group(std::span<LightSource> sources);
     [[nodiscard]] float mean_emission(std::uint32_t triangle) const;
 
-    [[nodiscard]] float weight(const Group& group, const Vantage& at) const;
+    [[nodiscard]] float weight(const LightGroup& group, const Vantage& at) const;
     float weigh(const Vantage& at, Weights& weights) const;
-    [[nodiscard]] SkyLight sky(const Weights& weights, float total, Vec3 direction) const;
-    [[nodiscard]] LightSample sample_triangle(const Source& source, float probability, const Vantage& at,
+    [[nodiscard]] SkyLight sky(const Weights& weights, float total, const EnvironmentSample& environment) const;
+    [[nodiscard]] LightSample sample_sky(const LightSource& source, const Weights& weights, float total,
+                                         Pair point) const;
+    [[nodiscard]] LightSample sample_triangle(const LightSource& source, float probability, const Vantage& at,
                                               Pair point) const;
     [[nodiscard]] LightSample sample_punctual(const PunctualLight& light, float probability, const Vantage& at) const;
 
@@ -100,9 +83,9 @@ class Lights {
     bool aimed_at_;
     std::optional<EnvironmentLight> environment_;
     std::vector<Sun> suns_;
-    std::vector<Source> sources_;
+    std::vector<LightSource> sources_;
     std::vector<std::uint32_t> source_of_emitter_;
-    std::vector<Group> groups_;
+    std::vector<LightGroup> groups_;
 };
 
 }  // namespace lobelia

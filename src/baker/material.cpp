@@ -84,23 +84,17 @@ Rgb base_albedo(const Reflectance& s, Vec3 wo, Vec3 wi) {
     return s.has_layer ? s.diffuse * left(s, dot(wi, normalize(wo + wi))) : s.diffuse;
 }
 
-Rgb reflected(const Reflectance& s, Vec3 wo, Vec3 wi) {
+Reflected reflect(const Reflectance& s, Vec3 wo, Vec3 wi) {
     if (wi.z <= 0 || wo.z <= 0) return {};
-    if (!s.has_layer) return s.diffuse * (wi.z * k_over_pi);
-    const Vec3 h = normalize(wo + wi);
-    const float cosine = dot(wi, h);
-    // D G F / (4 cos cos), times the cosine of wi.
-    const float shape = distribution(s.width, h) / (4 * wo.z * (1 + lambda(s.width, wo) + lambda(s.width, wi)));
-    return s.diffuse * (left(s, cosine) * wi.z * k_over_pi) + layer_fresnel(s, cosine) * shape;
-}
-
-float scatter_pdf(const Reflectance& s, Vec3 wo, Vec3 wi) {
-    if (wi.z <= 0 || wo.z <= 0) return 0;
     const float base = wi.z * k_over_pi;
-    if (!s.has_layer) return base;
-    const float share = layer_share(s, wo);
-    const float layer = distribution(s.width, normalize(wo + wi)) / (4 * wo.z * (1 + lambda(s.width, wo)));
-    return share * layer + (1 - share) * base;
+    if (!s.has_layer) return {s.diffuse * base, base};
+    // Layer: D G F / (4 cos cos), times the cosine of wi; visible normals have the density D / (4 cos (1 + Lambda)).
+    const Vec3 h = normalize(wo + wi);
+    const float cosine = dot(wi, h), seen = 1 + lambda(s.width, wo);
+    const float d = distribution(s.width, h) / (4 * wo.z), share = layer_share(s, wo);
+    const Rgb value =
+        s.diffuse * (left(s, cosine) * base) + layer_fresnel(s, cosine) * (d / (seen + lambda(s.width, wi)));
+    return {value, share * d / seen + (1 - share) * base};
 }
 
 Scattered scatter(const Reflectance& s, Vec3 wo, Pair point, float choice) {
@@ -115,9 +109,9 @@ Scattered scatter(const Reflectance& s, Vec3 wo, Pair point, float choice) {
     } else {
         wi = cosine_direction(point);
     }
-    const float pdf = scatter_pdf(s, wo, wi);
+    const auto [value, pdf] = reflect(s, wo, wi);
     if (!(pdf > 0)) return {};
-    return {wi, reflected(s, wo, wi) * (1 / pdf), pdf};
+    return {wi, value * (1 / pdf), pdf};
 }
 
 }  // namespace lobelia

@@ -36,13 +36,17 @@ struct Scattered {
     float pdf = 0;  ///< [1/sr]; 0: absorbed
 };
 
-/// Sample, pdf and value of one model, directions in the frame whose z is the normal; wo.z > 0. `choice` in [0, 1)
-/// selects the layer or the base.
+/// What a surface reflects from one direction into another, and with which density `scatter` chooses it.
+struct Reflected {
+    Rgb value;      ///< the reflectance distribution [1/sr] times the cosine of wi
+    float pdf = 0;  ///< [1/sr]
+};
+
+/// Sample, and value with pdf, of one model; directions in the frame whose z is the normal, wo.z > 0. `choice` in [0,
+/// 1) selects the layer or the base.
 [[nodiscard]] Scattered scatter(const Reflectance& surface, Vec3 wo, Pair point, float choice);
-[[nodiscard]] float scatter_pdf(const Reflectance& surface, Vec3 wo, Vec3 wi);
 /// Albedo of the base under the layer, for light from wi: the base's part of reflected() is this times cosine over pi.
 [[nodiscard]] Rgb base_albedo(const Reflectance& surface, Vec3 wo, Vec3 wi);
-/// The reflectance distribution [1/sr], times the cosine of wi.
-[[nodiscard]] Rgb reflected(const Reflectance& surface, Vec3 wo, Vec3 wi);
+[[nodiscard]] Reflected reflect(const Reflectance& surface, Vec3 wo, Vec3 wi);
 
 }  // namespace lobelia

@@ -74,9 +74,9 @@ bool PathTracer::Implementation::aim(const Path& path, const SurfacePoint& at, c
     const LightSample light = lights.sample({at.origin, at.normal}, draws.light_choice, draws.light);
     if (is_black(light.irradiance) || dot(light.direction, at.face) <= 0) return false;
     const Vec3 wo = axes.local(path.direction * -1.0f), wi = axes.local(light.direction);
-    const Rgb reflection = reflected(at.reflectance, wo, wi);
+    const auto [reflection, pdf] = reflect(at.reflectance, wo, wi);
     if (is_black(reflection)) return false;
-    const float weight = light.pdf > 0 ? light.pdf / (light.pdf + scatter_pdf(at.reflectance, wo, wi)) : 1;
+    const float weight = light.pdf > 0 ? light.pdf / (light.pdf + pdf) : 1;
     shadow.origin = at.origin;
     shadow.direction = light.direction;
     shadow.distance = light.distance;
@@ -116,18 +116,16 @@ void PathTracer::Implementation::draw(std::size_t count, int depth, Scratch& scr
     if (surfaces.layered()) scratch.counters.draw(count, first + k_layer, scratch.layer);
 }
 
-/// Lets every path meet what its ray has hit; returns how many go on, at the front of the scratch.
-std::size_t PathTracer::Implementation::meet_all(std::span<Incident> out, std::size_t count, int depth,
-                                                 Scratch& scratch, std::size_t& shadows) const {
-    std::size_t alive = 0;
+/// Lets every path meet what its ray has hit, and take up what shines there; returns how many have a surface to scatter
+/// from, at the front of the scratch.
+std::size_t PathTracer::Implementation::arrive(std::span<Incident> out, std::size_t count, int depth,
+                                               Scratch& scratch) const {
+    std::size_t arrived = 0;
     for (std::size_t i = 0; i < count; ++i) {
-        Path path = scratch.paths[i];
-        RayHit& hit = scratch.hits[i];
+        const Path& path = scratch.paths[i];
+        RayHit hit = scratch.hits[i];
         Incident& result = out[path.out];
-
-        // Take up what shines there.
-        const std::uint32_t path_salt = mix(scratch.counters.mixed_keys[i], scratch.counters.samples[i]);
-        const std::uint32_t salt = mix(path_salt, 2 * static_cast<std::uint32_t>(depth));
+        const std::uint32_t salt = scratch.counters.salt(i, 2 * static_cast<std::uint32_t>(depth));
         const bool stopped = stop(path, salt, depth, hit, result, scratch);
         if (depth == 0 && !result.back_face) result.distance = hit.distance;
         if (!stopped) {
@@ -136,13 +134,28 @@ std::size_t PathTracer::Implementation::meet_all(std::span<Incident> out, std::s
         }
         meet_emission(path, depth, hit, result);
         if (depth == options.bounces) continue;
+        scratch.paths[arrived] = path;
+        scratch.hits[arrived] = hit;
+        scratch.counters.move(i, arrived++);
+    }
+    return arrived;
+}
 
-        // Aim at a light source, and go on.
+/// Aims at a light source from every surface, and sends the paths on; returns how many go on, at the front.
+std::size_t PathTracer::Implementation::depart(std::size_t count, int depth, Scratch& scratch) const {
+    std::size_t alive = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        Path path = scratch.paths[i];
+        const RayHit& hit = scratch.hits[i];
         const SurfacePoint at = surfaces.point(hit.triangle, hit.u, hit.v, path.direction);
         const Axes axes(at.normal);
         const Draws draws{scratch.scatter[i], scratch.light[i], scratch.choice.a[i], scratch.choice.b[i],
                           scratch.layer.a[i]};
-        if (aim(path, at, axes, draws, scratch.shadows[shadows])) scratch.shadows[shadows++].salt = salt + 1;
+        ShadowRay& shadow = scratch.shadows[scratch.shadow_count];
+        if (aim(path, at, axes, draws, shadow)) {
+            shadow.salt = scratch.counters.salt(i, 2 * static_cast<std::uint32_t>(depth) + 1);
+            ++scratch.shadow_count;
+        }
         if (!scatter_on(path, at, axes, draws)) continue;
         scratch.paths[alive] = path;
         scratch.counters.move(i, alive++);
@@ -150,24 +163,26 @@ std::size_t PathTracer::Implementation::meet_all(std::span<Incident> out, std::s
     return alive;
 }
 
+/// Adds the light that was aimed at and is not hidden.
+void PathTracer::Implementation::light_up(std::span<Incident> out, Scratch& scratch) const {
+    for (std::size_t i = 0; i < scratch.shadow_count; ++i) {
+        const ShadowRay& s = scratch.shadows[i];
+        if (!rays.stopped(s.origin, s.direction, s.distance, s.salt, Backs::pass))
+            out[s.out].scattered = out[s.out].scattered + s.radiance;
+    }
+    scratch.rays += scratch.shadow_count;
+    scratch.shadow_count = 0;
+}
+
 void PathTracer::Implementation::follow(std::span<Incident> out, std::size_t count, Scratch& scratch) const {
     for (int depth = 0; count > 0; ++depth) {
-        // Trace all rays to the first surfaces.
         for (std::size_t i = 0; i < count; ++i)
             scratch.hits[i] = rays.closest(scratch.paths[i].origin, scratch.paths[i].direction, k_infinite);
-
+        scratch.rays += count;
+        count = arrive(out, count, depth, scratch);
         draw(count, depth, scratch);
-        std::size_t shadows = 0;
-        const std::size_t alive = meet_all(out, count, depth, scratch, shadows);
-
-        // Add the light that is not hidden.
-        for (std::size_t i = 0; i < shadows; ++i) {
-            const ShadowRay& s = scratch.shadows[i];
-            if (!rays.stopped(s.origin, s.direction, s.distance, s.salt, Backs::pass))
-                out[s.out].scattered = out[s.out].scattered + s.radiance;
-        }
-        scratch.rays += count + shadows;
-        count = alive;
+        count = depart(count, depth, scratch);
+        light_up(out, scratch);
     }
 }
 

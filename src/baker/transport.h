@@ -26,9 +26,10 @@ struct PathTracer::Implementation {
     void follow(std::span<Incident> out, std::size_t count, Scratch& scratch) const;
 
   private:
+    std::size_t arrive(std::span<Incident> out, std::size_t count, int depth, Scratch& scratch) const;
+    std::size_t depart(std::size_t count, int depth, Scratch& scratch) const;
     void draw(std::size_t count, int depth, Scratch& scratch) const;
-    std::size_t meet_all(std::span<Incident> out, std::size_t count, int depth, Scratch& scratch,
-                         std::size_t& shadows) const;
+    void light_up(std::span<Incident> out, Scratch& scratch) const;
     bool stop(const Path& path, std::uint32_t salt, int depth, RayHit& hit, Incident& out, Scratch& scratch) const;
     void add_emitted(const Path& path, int depth, const SkyLight& light, Incident& out) const;
     void meet_emission(const Path& path, int depth, const RayHit& hit, Incident& out) const;

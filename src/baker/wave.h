@@ -47,6 +47,10 @@ struct Counters {
         mixed_keys[to] = mixed_keys[from];
         samples[to] = samples[from];
     }
+    /// The random number of a path's ray number `ray`, for transparency.
+    [[nodiscard]] std::uint32_t salt(std::size_t path, std::uint32_t ray) const {
+        return mix(mix(mixed_keys[path], samples[path]), ray);
+    }
     /// Pair number `dimension_pair` of the first `count`.
     void draw(std::size_t count, std::uint32_t dimension_pair, Pairs& out) const {
         const std::size_t whole = round_up_to_lanes(count);
@@ -59,6 +63,7 @@ class PathTracer::Scratch {
     std::vector<Path> paths = std::vector<Path>(k_wave);
     std::vector<RayHit> hits = std::vector<RayHit>(k_wave);
     std::vector<ShadowRay> shadows = std::vector<ShadowRay>(k_wave);
+    std::size_t shadow_count = 0;
     Counters counters;
     Pairs scatter{k_wave}, light{k_wave}, choice{k_wave}, layer{k_wave};
     std::uint64_t rays = 0;

@@ -18,9 +18,9 @@ struct Options {
     BakeJob job;
     std::string size = "512x512", memory = "2G", shard, shard_by = "tiles", frame = "world", directions = "uniform",
                 layout = "automatic", probes;
-    std::string precision = "half", rebake_object;
+    std::string precision = "half", rebake_object, picture_size = "640x400";
     std::uint32_t add_samples = 0;
-    bool resume = false, plain = false;
+    bool resume = false, plain = false, preflight = false;
     bool no_denoise = false, no_seams = false, no_dilate = false, no_push_out = false, no_page = false;
     bool no_next_event = false, no_roulette = false;
 };
@@ -91,6 +91,11 @@ Result<BakeJob> to_job(const Options& options) {
     job.bake.atlas.layout = options.layout == "shared"   ? Layout::shared
                             : options.layout == "packed" ? Layout::packed
                                                          : Layout::automatic;
+    const auto picture = parse_grid(options.picture_size);
+    if (!picture || picture->width > 16384 || picture->height > 16384)
+        return Error{"--picture-size: \"" + options.picture_size + "\" is not a size such as 640x400"};
+    job.picture_width = picture->width;
+    job.picture_height = picture->height;
     if (options.plain) job.bake.codec.clear();
     job.bake.push_out = off_if(options.no_push_out);
     job.bake.paths.next_event = off_if(options.no_next_event);
@@ -117,7 +122,7 @@ Status bake_verb(const Options& options) {
             return Error{"bake: a scene is missing: a .glb or .gltf file, or cornell or colonnade"};
         auto job = to_job(options);
         if (!job) return job.error();
-        return run_job(*job, JobStart::fresh);
+        return options.preflight ? preflight_job(*job) : run_job(*job, JobStart::fresh);
     }
 
     // Everything but this session's limits is as it was.
@@ -199,6 +204,8 @@ void add_session_options(CLI::App& command, Options& o) {
         .add_option("--target-error", bake.target_error,
                     "A texel is done when its relative standard error is below this, 1e-4 to 1; --samples at most")
         ->check(number_in(1e-4, 1));
+    command.add_flag("--preflight", o.preflight,
+                     "Only look at the lightmap UVs and at what the bake would take; pictures go to -o");
     command.add_flag("--resume", o.resume, "Go on with the bake in -o where it was stopped; its options are kept");
     command
         .add_option("--add-samples", o.add_samples,
@@ -222,6 +229,11 @@ void add_output_options(CLI::App& command, Options& o) {
     command.add_flag("--no-dilate", o.no_dilate, "Leave texels that nothing covers at 0");
     command.add_flag("--no-push-out", o.no_push_out, "Leave texels under other surfaces where they are");
     command.add_flag("--no-page", o.no_page, "No bake.html and no pictures for it");
+    command.add_option("--picture-size", o.picture_size, "Of the page's pictures from the scene's cameras, WxH")
+        ->capture_default_str();
+    command.add_option("--picture-samples", o.job.picture_samples, "Of each of their pixels, 1 to 65536")
+        ->check(CLI::Range(1u, 65536u))
+        ->capture_default_str();
     ProbeOptions& probes = o.job.probes;
     command.add_option("--probes", o.probes, "Bake probes, too: in the \"scene\"'s box or one given, x,y,z,x,y,z [m]");
     command.add_option("--probe-spacing", probes.spacing, "Of the coarsest grid [m], 0.001 to 10000 (default 1)")

@@ -7,8 +7,10 @@
 
 #include "baker/merge.h"
 #include "baker/output/bake_folder.h"
+#include "baker/preflight.h"
+#include "baker/sites.h"
 #include "cli/common.h"
-#include "lobelia/sample.h"
+#include "report/bake_page.h"
 
 namespace lobelia::cli {
 namespace {
@@ -90,6 +92,60 @@ void print_summary(const Baker& baker, const Bake& bake) {
     if (bake.probes) fmt::print("{} probes\n", bake.probes->size());
 }
 
+/// Without a rate there is no estimate of the time, and no ray is traced.
+Preflight preflight_of(const Baker& baker, std::optional<TraceRate> rate = {}) {
+    PreflightOptions options;
+    options.state_bytes = baker.sites().bytes();
+    options.channels = baker.layout().channels();
+    options.samples = baker.options().samples;
+    options.rate = rate;
+    return preflight(baker.atlas(), baker.texels(), options);
+}
+
+/// The pages' charts and what is wrong with them, as pictures.
+Status write_preflight(const Preflight& checked, const Baker& baker, const fs::path& out) {
+    std::vector<std::string> pictures;
+    for (std::size_t page = 0; page < checked.pages; ++page) {
+        auto png = encode_png(preflight_picture(checked, baker.atlas(), baker.texels(), page));
+        if (!png) return png.error();
+        pictures.push_back(std::move(*png));
+    }
+    std::vector<FileContent> files;
+    for (std::size_t page = 0; page < pictures.size(); ++page)
+        files.push_back({out / fmt::format("preflight-{}.png", page), pictures[page]});
+    return write_into_folder(out, files);
+}
+
+Image to_image(const Image8& picture) {
+    Image image(picture.width, picture.height);
+    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+        const std::uint8_t* rgb = &picture.rgb[3 * i];
+        image.pixels[i] =
+            Rgb{static_cast<float>(rgb[0]), static_cast<float>(rgb[1]), static_cast<float>(rgb[2])} * (1.0f / 255);
+    }
+    return image;
+}
+
+/// bake.html: nothing where Ctrl-C was pressed while its pictures were made.
+Result<std::string> make_page(const Scene& scene, const Baker& baker, const Bake& bake, const Preflight& checked,
+                              std::span<const std::string> warnings, const RenderOptions& pictures) {
+    BakePage page = bake_page_of(scene, baker, bake);
+    page.warnings.assign(warnings.begin(), warnings.end());
+    for (const auto& warning : lobelia::warnings(checked, scene))
+        page.checks.push_back({PreflightCheck::Level::warning, "preflight", warning});
+    if (page.checks.empty())
+        page.checks.push_back({PreflightCheck::Level::good, "preflight", "Nothing to mend in the lightmap UVs."});
+    constexpr std::size_t most_side = 1024;
+    for (std::size_t p = 0; p < checked.pages; ++p)
+        page.preflight_pictures.push_back(
+            {fmt::format("page {}", p),
+             to_image(preflight_picture(checked, baker.atlas(), baker.texels(), p, most_side))});
+    auto views = render_views(scene, page.light, baker.options().paths, pictures);
+    if (!views) return std::string();
+    page.views = std::move(*views);
+    return bake_html(page);
+}
+
 /// What Ctrl-C leaves: the line that says how to go on, and the exit that shells expect.
 Status stopped(const fs::path& out) {
     complain(fmt::format("lobelia: stopped; go on with: lobelia bake --resume -o {}", out.string()));
@@ -99,6 +155,20 @@ Status stopped(const fs::path& out) {
 }
 
 }  // namespace
+
+Status preflight_job(const BakeJob& job) {
+    if (auto status = check_folder(job.out); !status) return status;
+    auto loaded = load_scene(job.scene);
+    if (!loaded) return loaded.error();
+    for (const auto& warning : loaded->warnings) complain("lobelia: warning: " + warning);
+    const auto baker = Baker::make(loaded->scene, job.bake);
+    if (!baker) return baker.error();
+    const Preflight checked =
+        preflight_of(**baker, measure_rate((*baker)->atlas(), (*baker)->texels(), (*baker)->tracer()));
+    if (auto status = write_preflight(checked, **baker, job.out); !status) return status;
+    fmt::print("{}", to_text(checked, loaded->scene));
+    return Done{};
+}
 
 Status run_job(const BakeJob& job, JobStart start, std::span<const fs::path> shards) {
     // Everything that is cheap to refuse, first.
@@ -112,6 +182,13 @@ Status run_job(const BakeJob& job, JobStart start, std::span<const fs::path> sha
     if (!baker.tracer().has_light()) complain("lobelia: warning: the scene has no light; everything will be black");
     if (job.probes.spacing > 0)
         if (auto status = check(job.probes, baker.tracer().world()); !status) return status;
+
+    const Preflight checked = preflight_of(baker);
+    std::vector<std::string> said = loaded->warnings;
+    for (const auto& warning : warnings(checked, loaded->scene)) {
+        complain("lobelia: warning: " + warning);
+        said.push_back(warning);
+    }
 
     // Bake.
     const StopOnInterrupt stop;
@@ -154,9 +231,27 @@ Status run_job(const BakeJob& job, JobStart start, std::span<const fs::path> sha
     }
     bake.pages = std::move(pages);
     bake.normals = std::move(guides.normal);
-    if (status = write_bake(job.out, bake); !status) return status;
+    std::string page;
+    if (job.page) {
+        RenderOptions pictures;
+        pictures.threads = job.bake.threads;
+        pictures.width = job.picture_width;
+        pictures.height = job.picture_height;
+        pictures.samples = job.picture_samples;
+        pictures.stop = &interrupted;
+        pictures.progress = [bar = progress_bar()](double done) {
+            if (bar) bar(done);
+        };
+        auto made_page = make_page(loaded->scene, baker, bake, checked, said, pictures);
+        if (!made_page) return made_page.error();
+        if (interrupted) return stopped(job.out);
+        page = std::move(*made_page);
+    }
+    if (status = write_bake(job.out, bake, {.scene = &loaded->scene}); !status) return status;
+    if (job.page)
+        if (status = write_file_atomically(job.out / "bake.html", page); !status) return status;
     print_summary(baker, bake);
-    fmt::print("{}\n", (job.out / "bake.json").string());
+    fmt::print("{}\n", (job.out / (job.page ? "bake.html" : "bake.json")).string());
     return Done{};
 }
 

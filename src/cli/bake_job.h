@@ -23,6 +23,8 @@ struct BakeJob {
     ProbeOptions probes;
     ExrOptions::Precision precision = ExrOptions::Precision::half;  ///< of the pages
     bool page = true;                                               ///< write the HTML page with its pictures
+    std::uint32_t picture_samples = 64;                             ///< of each of their pixels
+    std::size_t picture_width = 640, picture_height = 400;
     std::filesystem::path out;
 };
 
@@ -42,6 +44,9 @@ enum class JobStart {
     merged,  ///< with the states of shards, put together
     rebake   ///< from nothing for one object of a finished bake
 };
+
+/// Looks at the scene's lightmap UVs and at what the bake would take, before any ray; prints it and writes pictures.
+[[nodiscard]] Status preflight_job(const BakeJob& job);
 
 /// Loads, bakes, finishes, writes; progress on a terminal. Ctrl-C ends it with the last checkpoint in place.
 [[nodiscard]] Status run_job(const BakeJob& job, JobStart start, std::span<const std::filesystem::path> shards = {});

@@ -79,6 +79,9 @@ void fields(auto& archive, BakeJob& job) {
     archive.group("probes", job.probes);
     archive.choice("precision", job.precision, k_precision_names);
     archive.flag("page", job.page);
+    archive.whole("picture_samples", job.picture_samples, 1, k_any_u32);
+    archive.whole("picture_width", job.picture_width, 1, 16384);
+    archive.whole("picture_height", job.picture_height, 1, 16384);
 }
 
 Status save_job(const BakeJob& job) {

@@ -20,8 +20,7 @@ bool is_bake(const std::string& path) {
 Status eval_bake(const EvalBakeOptions& options) {
     // The pages of irradiance have the names of the bake's own.
     std::error_code code;
-    const fs::path bake = fs::absolute(options.bake, code);
-    if (fs::equivalent(options.folder, fs::is_directory(bake, code) ? bake : bake.parent_path(), code))
+    if (fs::equivalent(options.folder, bake_folder(fs::absolute(options.bake, code)), code))
         return Error{options.folder + ": this is the bake itself; give another folder"};
     if (auto status = check_folder(options.folder); !status) return status;
     allow_reader_threads(static_cast<int>(std::thread::hardware_concurrency()));

@@ -6,9 +6,11 @@
 #include <filesystem>
 
 #include "baker/output/bake_folder.h"
+#include "baker/output/scene_copy.h"
 #include "baker/render.h"
 #include "cli/camera.h"
 #include "cli/common.h"
+#include "cli/eval_bake.h"
 #include "cli/scene_input.h"
 #include "cli/verbs.h"
 #include "io/write_image.h"
@@ -27,12 +29,6 @@ struct Options {
     std::optional<double> exposure;
     bool truth = false;
 };
-
-/// A folder, or the manifest in it.
-bool is_bake(const std::string& path) {
-    std::error_code code;
-    return fs::is_directory(path, code) || fs::path(path).extension() == ".json";
-}
 
 /// The picture as the file's name wants it.
 Status write_picture(const Options& options, const Image& image) {
@@ -64,12 +60,10 @@ Result<Image> render_scene(const Options& options, const Scene& scene) {
 
 /// The scene of a bake: the copy in its folder, or the embedded one of its name.
 Result<LoadedScene> scene_of(const Options& options, const Manifest& manifest) {
-    const fs::path path = options.scene.path;
-    std::error_code code;
+    const fs::path folder = bake_folder(options.scene.path);
     SceneOptions scene = options.scene;
-    scene.path = manifest.scene
-                     ? ((fs::is_directory(path, code) ? path : path.parent_path()) / *manifest.scene).string()
-                     : manifest.scene_name;
+    scene.path = manifest.scene ? (folder / *manifest.scene).string() : manifest.scene_name;
+    if (!scene.environment && manifest.environment) scene.environment = (folder / *manifest.environment).string();
     return load_scene(scene);
 }
 
@@ -97,7 +91,9 @@ Result<Image> render_baked(const Options& options) {
         codec = *std::move(made);
     }
     std::vector<AtlasPlacement> placements;
-    for (const BakedObject& object : bake->manifest.objects) placements.push_back(object.placement);
+    for (std::size_t i = 0; i < bake->manifest.objects.size(); ++i)
+        placements.push_back(bake->manifest.scene ? placement_in_copy(bake->manifest, i)
+                                                  : bake->manifest.objects[i].placement);
     const bool tangent =
         codec && (codec->basis().domain() == Domain::hemisphere || bake->manifest.options.frame == Frame::tangent);
     const World world = make_world(scene->scene);

@@ -55,10 +55,8 @@ Result<LoadedScene> read_or_make(const SceneOptions& options) {
     // A name of the list is an embedded scene, unless there is a file of that name.
     std::error_code code;
     const auto names = embedded_scene_names();
-    const bool embedded = std::find(names.begin(), names.end(), options.path) != names.end();
-    if (embedded && !std::filesystem::is_regular_file(options.path, code)) {
-        auto scene = embedded_scene(options.path);
-        if (!scene) return scene.error();
+    auto scene = embedded_scene(options.path);
+    if (scene && !std::filesystem::is_regular_file(options.path, code)) {
         return LoadedScene{*std::move(scene), {}};
     }
     if (std::filesystem::exists(options.path, code)) {

@@ -45,8 +45,8 @@ Status check_tools(const std::filesystem::path& folder) {
     const auto node = run_program({"node", "--version"}, std::chrono::seconds(20));
     if (!node || node->code != 0)
         return Error{
-            "lobelia unwrap needs Node.js 18 or newer, and no \"node\" can be run; install the packages nodejs "
-            "and npm, or give the scene lightmap UVs in a modelling program (as TEXCOORD_1)"};
+            "lobelia unwrap needs Node.js 18 or newer, and no \"node\" can be run; setup/packages node "
+            "installs it; or give the scene lightmap UVs in a modelling program (as TEXCOORD_1)"};
     if (node->out.size() > 1 && std::atoi(node->out.c_str() + 1) < 18)
         return Error{fmt::format("lobelia unwrap needs Node.js 18 or newer; \"node\" is {}",
                                  node->out.substr(0, node->out.find('\n')))};
@@ -90,13 +90,13 @@ Status check_result(const std::filesystem::path& file, const Options& options) {
 }
 
 Status unwrap_verb(const Options& options) {
-    // Look at options, tools and input before the work.
+    // Look at options, input and tools before the work.
     if (const auto status = check_options(options); !status) return status;
+    const auto input = read_gltf(options.in);
+    if (!input) return input.error();
     const auto folder = script_folder();
     if (!folder) return folder.error();
     if (const auto status = check_tools(*folder); !status) return status;
-    const auto input = read_gltf(options.in);
-    if (!input) return input.error();
 
     // Run the script on a file in passing.
     const auto passing = TemporaryFolder::make();

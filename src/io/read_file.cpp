@@ -10,7 +10,10 @@
 
 namespace lobelia {
 
-Result<std::vector<std::byte>> read_file(const std::filesystem::path& path, std::size_t most_bytes) {
+namespace {
+
+template <class Bytes>
+Result<Bytes> read_whole(const std::filesystem::path& path, std::size_t most_bytes) {
     // Ask for the kind and the size before opening: a pipe would wait for ever.
     const std::string name = path.string();
     const auto failed = [&](int code) {
@@ -28,10 +31,20 @@ Result<std::vector<std::byte>> read_file(const std::filesystem::path& path, std:
     errno = 0;
     const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), std::fclose);
     if (!file) return failed(errno);
-    std::vector<std::byte> bytes(size);
+    Bytes bytes(size, {});
     if (std::fread(bytes.data(), 1, bytes.size(), file.get()) != bytes.size() || std::fgetc(file.get()) != EOF)
         return std::ferror(file.get()) ? failed(errno) : Error{fmt::format("{}: changed while it was read", name)};
     return bytes;
+}
+
+}  // namespace
+
+Result<std::vector<std::byte>> read_file(const std::filesystem::path& path, std::size_t most_bytes) {
+    return read_whole<std::vector<std::byte>>(path, most_bytes);
+}
+
+Result<std::string> read_text(const std::filesystem::path& path, std::size_t most_mebibytes) {
+    return read_whole<std::string>(path, most_mebibytes << 20);
 }
 
 }  // namespace lobelia

@@ -125,7 +125,7 @@ Result<PictureRgba8> read_picture_rgba8(std::span<const std::byte> bytes, std::s
     if (!source) return source.error();
     int width = 0, height = 0, channels = 0;
     const StbSamples<stbi_uc> samples(stbi_load_from_memory(source->data, source->size, &width, &height, &channels, 4),
-                                   stbi_image_free);
+                                      stbi_image_free);
     if (!samples) return Error{fmt::format("{}: a damaged picture: {}", name, stbi_failure_reason())};
     PictureRgba8 picture{static_cast<std::size_t>(width), static_cast<std::size_t>(height), {}};
     picture.texels.resize(picture.width * picture.height);

@@ -110,6 +110,14 @@ void encode(Imf::OStream& out, std::size_t width, std::size_t height, std::span<
     }
 }
 
+/// Its three channels, which are interleaved in memory; none of an empty image.
+std::vector<ExrChannel> channels_of(const Image& image) {
+    if (image.pixels.empty()) return {};
+    const std::span<const float> floats(&image.pixels[0].r, 3 * image.pixels.size());
+    static_assert(sizeof(Rgb) == 3 * sizeof(float));
+    return {{"R", floats, 3}, {"G", floats.subspan(1), 3}, {"B", floats.subspan(2), 3}};
+}
+
 }  // namespace
 
 Result<std::string> encode_exr(std::size_t width, std::size_t height, std::span<const ExrChannel> channels,
@@ -125,12 +133,11 @@ Result<std::string> encode_exr(std::size_t width, std::size_t height, std::span<
 }
 
 Result<std::string> encode_exr(const Image& image, const ExrOptions& options) {
-    if (image.pixels.empty()) return encode_exr(image.width, image.height, {}, options);
-    // The three channels are interleaved in memory.
-    const std::span<const float> floats(&image.pixels[0].r, 3 * image.pixels.size());
-    static_assert(sizeof(Rgb) == 3 * sizeof(float));
-    const std::vector<ExrChannel> channels{{"R", floats, 3}, {"G", floats.subspan(1), 3}, {"B", floats.subspan(2), 3}};
-    return encode_exr(image.width, image.height, channels, options);
+    return encode_exr(image.width, image.height, channels_of(image), options);
+}
+
+Status write_exr(StagedFile& file, const Image& image, const ExrOptions& options) {
+    return write_exr(file, image.width, image.height, channels_of(image), options);
 }
 
 Status write_exr(const std::filesystem::path& path, const Image& image, const ExrOptions& options) {

@@ -37,6 +37,7 @@ struct ExrChannel {
 [[nodiscard]] Result<std::string> encode_exr(const Image& image, const ExrOptions& options = {});
 /// The same into a file, written atomically.
 [[nodiscard]] Status write_exr(const std::filesystem::path& path, const Image& image, const ExrOptions& options = {});
+[[nodiscard]] Status write_exr(StagedFile& file, const Image& image, const ExrOptions& options = {});
 /// Any channels into a file: rows go there as they are encoded, so that no second copy of a large image is in memory.
 [[nodiscard]] Status write_exr(StagedFile& file, std::size_t width, std::size_t height,
                                std::span<const ExrChannel> channels, const ExrOptions& options = {});

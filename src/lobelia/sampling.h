@@ -97,12 +97,16 @@ class AliasTable {
     [[nodiscard]] std::size_t choose(std::size_t i, double u) const;
     /// Probability of index i.
     [[nodiscard]] double probability(std::size_t i) const { return probability_[i]; }
-    [[nodiscard]] std::size_t size() const { return threshold_.size(); }
+    [[nodiscard]] std::size_t size() const { return columns_.size(); }
 
   private:
+    /// What one draw reads, together.
+    struct Column {
+        float threshold = 1;
+        std::uint32_t alias = 0;
+    };
     std::vector<float> probability_;
-    std::vector<float> threshold_;
-    std::vector<std::uint32_t> alias_;
+    std::vector<Column> columns_;
 };
 
 }  // namespace lobelia

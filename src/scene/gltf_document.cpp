@@ -100,12 +100,16 @@ Status read_image_sources(Document& document, const nlohmann::json& root) {
     for (std::size_t i = 0; i < images->size(); ++i) {
         const nlohmann::json& image = (*images)[i];
         ImageSource source;
-        source.name = image.value("name", std::string());
+        source.name = short_name(image.value("name", std::string()));
         if (const auto view = image.find("bufferView"); view != image.end())
             source.buffer_view = view->get<std::size_t>();
         if (const auto uri = image.find("uri"); uri != image.end()) {
             if (!uri->is_string()) return document.error(fmt::format("images[{}].uri", i), "not a text");
             source.uri = uri->get<std::string>();
+            // Looked at even where nobody uses the image: other programs would open it.
+            if (!source.uri.starts_with("data:"))
+                if (const auto path = relative_path(source.uri); !path)
+                    return document.error(fmt::format("images[{}].uri", i), path.error().message);
         }
         if (source.buffer_view.has_value() != source.uri.empty())
             return document.error(fmt::format("images[{}]", i), "must have either a uri or a bufferView");
@@ -166,6 +170,13 @@ Result<Bytes> view_bytes(const Document& document, int view, std::string_view pl
         return document.error(
             at, fmt::format("bytes {} + {} of a buffer of {}", v.byteOffset, v.byteLength, buffer.size()));
     return buffer.subspan(v.byteOffset, v.byteLength);
+}
+
+std::string short_name(const std::string& name) {
+    // Not within a character of UTF-8.
+    std::size_t end = std::min<std::size_t>(name.size(), 200);
+    while (end > 0 && end < name.size() && (static_cast<unsigned char>(name[end]) & 0xc0) == 0x80) --end;
+    return name.substr(0, end);
 }
 
 const tinygltf::Value* extension(const tinygltf::ExtensionMap& extensions, const char* name) {

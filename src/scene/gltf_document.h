@@ -55,6 +55,9 @@ struct Document {
 /// The bytes of a buffer view; an error that names `place` where there is none, or it exceeds its buffer.
 [[nodiscard]] Result<Bytes> view_bytes(const Document& document, int view, std::string_view place);
 
+/// A name, or the beginning of one that is no name but a burden: it may be asked for a million times.
+[[nodiscard]] std::string short_name(const std::string& name);
+
 /// An extension of some object, or null.
 [[nodiscard]] const tinygltf::Value* extension(const tinygltf::ExtensionMap& extensions, const char* name);
 

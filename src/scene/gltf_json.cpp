@@ -89,9 +89,11 @@ Status check_kinds(const json& value, std::string_view name, const std::string& 
                 if (auto s = check_kinds(value[i], name, fmt::format("{}[{}]", place, i)); !s) return s;
         return Done{};
     }
-    for (const auto& [key, member] : value.items()) {
+    for (auto entry = value.begin(); entry != value.end(); ++entry) {
+        const std::string& key = entry.key();
+        const json& member = entry.value();
         if (key == "extensions" || key == "extras") continue;
-        const auto at = [&] { return place.empty() ? key : place + "." + key; };
+        const auto at = [&] { return (place.empty() ? "" : place + ".") + key.substr(0, 60); };
         // "indices" is a number in a primitive, an object in a sparse accessor; "target" an object in an animation.
         const bool may_be_object = key == "indices" || key == "target";
         if (is_whole_number(key) && !(may_be_object && member.is_object()) &&

@@ -64,7 +64,7 @@ Result<PunctualLight> read_light(const Document& document, std::size_t index) {
     const tinygltf::Light& source = document.model.lights[index];
     const std::string place = fmt::format("extensions.KHR_lights_punctual.lights[{}]", index);
     PunctualLight light;
-    light.name = source.name;
+    light.name = short_name(source.name);
     if (const Status s = read_kind(document, source, light, place); !s) return s.error();
     double scale = source.intensity;
     if (document.options.units == GltfReadOptions::Units::photometric) scale /= k_white_efficacy;
@@ -90,7 +90,7 @@ Status add_light(Document& document, const PlacedNode& placed, Scene& scene) {
     if (!*index) return document.error(place + ".light", "missing");
     auto light = read_light(document, **index);
     if (!light) return light.error();
-    if (!node.name.empty()) light->name = node.name;
+    if (!node.name.empty()) light->name = short_name(node.name);
     if (light->kind != PunctualLight::Kind::directional) light->position = placed.world_from_node.translation;
     if (light->kind != PunctualLight::Kind::point) {
         const auto axes = without_scale(placed.world_from_node);
@@ -115,7 +115,7 @@ Status add_camera(Document& document, const PlacedNode& placed, Scene& scene) {
         return Done{};
     }
     Camera camera;
-    camera.name = node.name.empty() ? source.name : node.name;
+    camera.name = short_name(node.name.empty() ? source.name : node.name);
     camera.vertical_field_of_view = static_cast<float>(source.perspective.yfov);
     if (!(camera.vertical_field_of_view > 0 && camera.vertical_field_of_view < 3.1415f))
         return document.error(place + ".perspective.yfov", "not in (0, pi)");

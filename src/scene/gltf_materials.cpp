@@ -132,7 +132,7 @@ Result<Draft> read_draft(Document& document, const tinygltf::Material& source, c
     // Factors.
     Draft draft;
     Material& material = draft.material;
-    material.name = source.name;
+    material.name = short_name(source.name);
     material.double_sided = source.doubleSided;
     material.unlit = extension(source.extensions, "KHR_materials_unlit") != nullptr;
     const auto& pbr = source.pbrMetallicRoughness;

@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 
+#include "scene/gltf_normals.h"
 #include "scene/gltf_triangles.h"
 
 namespace lobelia::gltf {
@@ -50,7 +51,7 @@ class MeshReader {
           place_(fmt::format("meshes[{}]", index)) {}
 
     Result<Mesh> read() {
-        mesh_.name = source_.name;
+        mesh_.name = short_name(source_.name);
         for (std::size_t p = 0; p < source_.primitives.size(); ++p)
             if (const Status s = read_primitive(p); !s) return s.error();
         choose_attributes();
@@ -58,8 +59,7 @@ class MeshReader {
         for (const Block& block : blocks_)
             if (const Status s = read_vertices(block); !s) return s.error();
         add_triangles();
-        repair_normals();
-        count_triangles_without_area();
+        finish();
         return std::move(mesh_);
     }
 
@@ -290,42 +290,13 @@ class MeshReader {
         }
     }
 
-    [[nodiscard]] Vec3 area_vector(const Triangle& t) const {
-        const auto& p = mesh_.positions;
-        return cross(p[t[1]] - p[t[0]], p[t[2]] - p[t[0]]);
-    }
-
-    /// Scales normals to length 1. Where there are none, or they are no directions, the triangles around decide.
-    void repair_normals() {
-        if (mesh_.normals.empty()) return;
-        std::vector<bool> bad(mesh_.normals.size());
-        std::size_t missing = 0, count = 0;
+    void finish() {
+        const std::vector<bool> repaired = repair_normals(mesh_);
         for (const Block& block : blocks_)
-            for (std::size_t v = block.first; v < block.first + block.used.size(); ++v) {
-                const float l = length(mesh_.normals[v]);
-                bad[v] = !(l > 1e-12f) || !std::isfinite(l);
-                // Left alone where they are of length 1 already, to the bit.
-                if (!bad[v] && std::abs(l - 1) > 1e-6f) mesh_.normals[v] = mesh_.normals[v] * (1 / l);
-                if (bad[v]) mesh_.normals[v] = {};
-                count += bad[v];
-                missing += bad[v] && block.attributes.normal < 0;
-            }
-        if (count == 0) return;
-        for (const Triangle& t : mesh_.triangles)
-            for (const std::uint32_t v : t)
-                if (bad[v]) mesh_.normals[v] = mesh_.normals[v] + area_vector(t);
-        for (std::size_t v = 0; v < bad.size(); ++v) {
-            if (!bad[v]) continue;
-            const float l = length(mesh_.normals[v]);
-            mesh_.normals[v] = l > 0 && std::isfinite(l) ? mesh_.normals[v] * (1 / l) : Vec3{0, 0, 1};
-        }
-        context_.totals.repaired_normals += count - missing;
-    }
-
-    void count_triangles_without_area() {
+            for (std::size_t i = 0; i < block.used.size() && !repaired.empty() && block.attributes.normal >= 0; ++i)
+                context_.totals.repaired_normals += repaired[block.first + i];
         for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
-            const Vec3 v = area_vector(mesh_.triangles[t]);
-            if (v.x != 0 || v.y != 0 || v.z != 0) continue;
+            if (area_vector(mesh_, t) != Vec3{}) continue;
             if (context_.totals.no_area++ == 0)
                 context_.totals.first_no_area = fmt::format("{}, triangle {}", place_, t);
         }

@@ -58,7 +58,8 @@ Status add_objects(Document& document, const PlacedNode& placed, std::size_t mes
     triangles += copies->size() * each;
 
     const tinygltf::Node& node = document.model.nodes[placed.node];
-    const std::string name = node.name.empty() ? name_or(scene.meshes[mesh].name, "node", placed.node) : node.name;
+    const std::string name =
+        node.name.empty() ? name_or(scene.meshes[mesh].name, "node", placed.node) : short_name(node.name);
     for (std::size_t i = 0; i < copies->size(); ++i) {
         Object object;
         object.name = copies->size() == 1 ? name : fmt::format("{} {}", name, i);
@@ -105,7 +106,7 @@ Result<LoadedScene> read(Document& document) {
     if (const Status s = read_lights_and_cameras(document, *nodes, scene); !s) return s.error();
     const auto& scenes = document.model.scenes;
     const auto chosen = static_cast<std::size_t>(std::max(document.model.defaultScene, 0));
-    if (chosen < scenes.size()) scene.name = scenes[chosen].name;
+    if (chosen < scenes.size()) scene.name = short_name(scenes[chosen].name);
     if (const Status s = check_scene(scene); !s) return Error{fmt::format("{}: {}", document.name, s.error().message)};
     warn_of_totals(document, context.totals);
     loaded.warnings = std::move(document.warnings);

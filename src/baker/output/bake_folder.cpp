@@ -10,12 +10,15 @@
 #include "baker/output/page_files.h"
 #include "baker/output/page_textures.h"
 #include "baker/output/probe_files.h"
+#include "baker/output/scene_copy.h"
 
 namespace lobelia {
 namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* k_scene_name = "scene.glb";
+constexpr const char* k_environment_name = "environment.exr";
 constexpr const char* k_probes_name = "probes.json";
 constexpr const char* k_probe_coefficients_name = "probes.bin";
 
@@ -23,6 +26,7 @@ using Packings = std::vector<std::shared_ptr<const TexturePacking>>;
 
 /// The packings asked for, of the codec's basis.
 Result<Packings> chosen_packings(const BakeOptions& bake, const WriteBakeOptions& options) {
+    if (bake.codec.empty()) return Packings();
     const auto codec = make_codec(bake.codec);
     if (!codec) return codec.error();
     Packings all = codec->basis().packings();
@@ -82,6 +86,22 @@ Status add_probes(FilesTogether& files, const Bake& bake, Manifest& manifest) {
     return status;
 }
 
+Status add_scene(FilesTogether& files, const Scene& scene, Manifest& manifest) {
+    // A bake is worth more than the copy: where glTF cannot hold the scene, say so and go on.
+    manifest.scene.reset();
+    const auto copy = encode_scene_copy(scene, manifest);
+    if (!copy) {
+        manifest.warnings.push_back("there is no copy of the scene: " + copy.error().message);
+    } else {
+        manifest.scene = k_scene_name;
+        if (auto status = files.add_text(k_scene_name, *copy); !status) return status;
+    }
+    manifest.environment.reset();
+    if (!scene.environment) return Done{};
+    manifest.environment = k_environment_name;
+    return files.add(k_environment_name, [&](StagedFile& file) { return write_exr(file, *scene.environment); });
+}
+
 }  // namespace
 
 Status write_bake(const fs::path& folder, const Bake& bake, const WriteBakeOptions& options) {
@@ -93,6 +113,7 @@ Status write_bake(const fs::path& folder, const Bake& bake, const WriteBakeOptio
     Manifest manifest = bake.manifest;
     auto status = add_pages(*files, bake, *packings, manifest);
     if (status) status = add_probes(*files, bake, manifest);
+    if (status && options.scene != nullptr) status = add_scene(*files, *options.scene, manifest);
     if (status) status = files->add_text(k_manifest_name, to_json_text(manifest));
     return status ? files->commit() : status;
 }
@@ -100,8 +121,7 @@ Status write_bake(const fs::path& folder, const Bake& bake, const WriteBakeOptio
 Result<Bake> read_bake(const fs::path& path) {
     auto manifest = read_manifest(path);
     if (!manifest) return manifest.error();
-    std::error_code code;
-    const fs::path folder = fs::is_directory(path, code) ? path : path.parent_path();
+    const fs::path folder = bake_folder(path);
     Bake bake{*std::move(manifest), {}, {}, {}};
     for (const auto& baked : bake.manifest.pages) {
         auto page = read_page(folder / baked.file, bake.layout(), bake.manifest.width, bake.manifest.height);

@@ -20,6 +20,8 @@ struct Bake {
 struct WriteBakeOptions {
     /// Ways to store the coefficients in textures, by name; absent: all that the basis knows (Basis::packings).
     std::optional<std::vector<std::string>> packings = {};
+    /// What was baked: a glTF copy whose lightmap UVs are those of the pages, and its environment, are written, too.
+    const Scene* scene = nullptr;
 };
 
 /// Writes the pages, their textures and the probes, then the manifest with the files' names filled in. The folder is

@@ -21,24 +21,40 @@ Status write_page_irradiance(StagedFile& file, const Page& page, std::span<const
     return write_exr(file, page.width, page.height, channels);
 }
 
+/// The irradiance planes.
+std::vector<Rgb> plain_irradiance(const Page& page, const PageLayout& layout) {
+    std::vector<Rgb> result(page.size());
+    for (std::size_t i = 0; i < page.size(); ++i)
+        result[i] = {page.planes[layout.irradiance(0)][i], page.planes[layout.irradiance(1)][i],
+                     page.planes[layout.irradiance(2)][i]};
+    return result;
+}
+
 }  // namespace
 
 Result<std::vector<std::filesystem::path>> write_irradiance(const std::filesystem::path& folder, const Bake& bake,
                                                             const IrradianceOptions& options) {
-    // Find the reading.
-    const auto codec = make_codec(bake.manifest.options.codec);
-    if (!codec) return codec.error();
-    const std::string& name = options.evaluator.empty() ? codec->name().evaluator : options.evaluator;
-    const auto evaluator = make_evaluator(name, codec->basis());
-    if (!evaluator) return evaluator.error();
+    // Find the reading; without a codec, irradiance is there as it is.
+    std::shared_ptr<const Evaluator> evaluator;
+    if (const std::string& name = bake.manifest.options.codec; !name.empty()) {
+        const auto codec = make_codec(name);
+        if (!codec) return codec.error();
+        auto made =
+            make_evaluator(options.evaluator.empty() ? codec->name().evaluator : options.evaluator, codec->basis());
+        if (!made) return made.error();
+        evaluator = std::move(*made);
+    } else if (!options.evaluator.empty()) {
+        return Error{"--evaluator: this bake is of irradiance alone, there is nothing to evaluate"};
+    }
 
     // Write it for each page.
     auto files = FilesTogether::in(folder);
     if (!files) return files.error();
     std::vector<std::filesystem::path> paths;
     for (std::size_t i = 0; i < bake.pages.size(); ++i) {
-        const auto irradiance =
-            page_irradiance(bake.pages[i], bake.layout(), bake.normals[i], bake.manifest.options.frame, **evaluator);
+        const auto irradiance = evaluator ? page_irradiance(bake.pages[i], bake.layout(), bake.normals[i],
+                                                            bake.manifest.options.frame, *evaluator)
+                                          : plain_irradiance(bake.pages[i], bake.layout());
         const std::string& file_name = bake.manifest.pages[i].file;
         paths.push_back(folder / file_name);
         auto status = files->add(file_name, [&](StagedFile& file) {

@@ -32,12 +32,14 @@ struct BakedPage {
 };
 
 struct Manifest {
-    std::string program;                                            ///< the version that wrote it
-    std::string scene_name;                                         ///< of the scene
-    std::uint64_t scene_hash = 0;                                   ///< scene_hash(scene)
-    std::optional<std::string> scene;                               ///< the glTF copy, beside the manifest
-    std::size_t coefficients = 0;                                   ///< of each texel; each is R, G, B
-    std::size_t width = 0, height = 0;                              ///< of each page [texels]
+    std::string program;                     ///< the version that wrote it
+    std::string scene_name;                  ///< of the scene
+    std::uint64_t scene_hash = 0;            ///< scene_hash(scene)
+    std::optional<std::string> scene;        ///< the glTF copy, beside the manifest; its lightmap UVs are the pages'
+    std::optional<std::string> environment;  ///< the image of the scene's environment, beside the manifest
+    std::vector<std::string> warnings;       ///< what people should know of the bake
+    std::size_t coefficients = 0;            ///< of each texel; each is R, G, B
+    std::size_t width = 0, height = 0;       ///< of each page [texels]
     ExrOptions::Precision precision = ExrOptions::Precision::full;  ///< of the coefficients in the pages
     std::vector<BakedPage> pages;
     std::vector<BakedObject> objects;
@@ -60,7 +62,10 @@ inline constexpr const char* k_manifest_name = "bake.json";
 /// the place in it and what to do.
 [[nodiscard]] Result<Manifest> manifest_from_json(std::string_view text, const std::string& name);
 
-/// bake.json in `folder`, or the file itself where `folder` is one.
-[[nodiscard]] Result<Manifest> read_manifest(const std::filesystem::path& folder);
+/// The folder of a bake: `path`, or where the bake.json lies that it names.
+[[nodiscard]] std::filesystem::path bake_folder(const std::filesystem::path& path);
+
+/// bake.json in a folder, or the file itself.
+[[nodiscard]] Result<Manifest> read_manifest(const std::filesystem::path& path);
 
 }  // namespace lobelia

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "baker/output/json_place.h"
-#include "io/read_text.h"
+#include "io/read_file.h"
 #include "lobelia/codec.h"
 
 namespace lobelia {

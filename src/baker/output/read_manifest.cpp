@@ -7,12 +7,13 @@
 #include "baker/output/bake_fields.h"
 #include "baker/output/manifest.h"
 #include "baker/output/page_files.h"
-#include "io/read_text.h"
+#include "io/read_file.h"
 
 namespace lobelia {
 namespace {
 
-constexpr std::uint64_t k_most_side = 65536, k_most_pages = 4096, k_most_objects = 1u << 24, k_most_layers = 2048;
+constexpr std::uint64_t k_most_side = 65536, k_most_pages = 4096, k_most_objects = 1u << 24, k_most_layers = 2048,
+                        k_most_warnings = 4096;
 
 void read_scene(const JsonPlace& scene, Manifest& m) {
     m.scene_name = scene.at("name").text();
@@ -21,11 +22,18 @@ void read_scene(const JsonPlace& scene, Manifest& m) {
     if (hash.size() != 16 || error != std::errc() || end != hash.data() + hash.size())
         scene.at("hash").refuse("not 16 hexadecimal digits");
     if (const auto file = scene.find("file")) m.scene = file->file_name();
+    if (const auto file = scene.find("environment")) m.environment = file->file_name();
 }
 
 void read_codec(const JsonPlace& codec, Manifest& m) {
-    m.options.codec = codec.at("name").text();
     m.options.frame = static_cast<Frame>(codec.at("frame").one_of(k_frame_names));
+    const auto stated = codec.at("coefficients").whole(0, k_any_u32);
+    m.options.codec = codec.at("name").text();
+    // No codec: irradiance at the shading normal alone.
+    if (m.options.codec.empty()) {
+        if (stated != 0) codec.at("coefficients").refuse("there is no codec, so there can be no coefficients");
+        return;
+    }
     const auto name = parse_codec_name(m.options.codec);
     if (!name) codec.at("name").refuse(name.error().message);
     const auto basis = make_basis(name->basis);
@@ -33,7 +41,7 @@ void read_codec(const JsonPlace& codec, Manifest& m) {
     const auto evaluator = make_evaluator(name->evaluator, **basis);
     if (!evaluator) codec.at("name").refuse(evaluator.error().message);
     m.coefficients = (*basis)->size();
-    if (codec.at("coefficients").whole(0, k_any_u32) != m.coefficients)
+    if (stated != m.coefficients)
         codec.at("coefficients").refuse(fmt::format("{} has {} coefficients", name->basis, m.coefficients));
     if ((*basis)->domain() == Domain::hemisphere && m.options.frame != Frame::tangent)
         codec.at("frame").refuse(name->basis + " is a basis of the hemisphere, which stands in the tangent frame");
@@ -95,6 +103,7 @@ void refuse_repeated_files(const JsonPlace& top, const Manifest& m) {
         for (const auto& texture : page.textures) add(texture.file);
     }
     if (m.scene) add(*m.scene);
+    if (m.environment) add(*m.environment);
     if (m.probes) add(*m.probes);
 }
 
@@ -107,6 +116,8 @@ Manifest read_all(const JsonPlace& top) {
     Manifest m;
     m.program = top.at("program").text();
     read_scene(top.at("scene"), m);
+    if (const auto warnings = top.find("warnings"))
+        for (const auto& warning : warnings->list(k_most_warnings)) m.warnings.push_back(warning.text());
     read_codec(top.at("codec"), m);
     read_layout(top.at("layout"), m);
     for (const auto& object : top.at("objects").list(k_most_objects))
@@ -129,12 +140,17 @@ Result<Manifest> manifest_from_json(std::string_view text, const std::string& na
     }
 }
 
-Result<Manifest> read_manifest(const std::filesystem::path& folder) {
+std::filesystem::path bake_folder(const std::filesystem::path& path) {
     std::error_code code;
-    const auto path = std::filesystem::is_directory(folder, code) ? folder / k_manifest_name : folder;
-    const auto text = read_text(path, 1024);
+    return std::filesystem::is_directory(path, code) ? path : path.parent_path();
+}
+
+Result<Manifest> read_manifest(const std::filesystem::path& path) {
+    std::error_code code;
+    const auto file = std::filesystem::is_directory(path, code) ? path / k_manifest_name : path;
+    const auto text = read_text(file, 1024);
     if (!text) return text.error();
-    return manifest_from_json(*text, path.string());
+    return manifest_from_json(*text, file.string());
 }
 
 }  // namespace lobelia

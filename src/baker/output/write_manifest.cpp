@@ -66,8 +66,7 @@ Manifest make_manifest(const Scene& scene, const Atlas& atlas, const BakeOptions
     m.program = k_version;
     m.scene_name = scene.name;
     m.scene_hash = scene_hash(scene);
-    const auto codec = make_codec(options.codec);
-    m.coefficients = codec ? codec->basis().size() : 0;
+    m.coefficients = options.codec.empty() ? 0 : make_codec(options.codec).value().basis().size();
     m.width = atlas.width();
     m.height = atlas.height();
     for (std::size_t i = 0; i < scene.objects.size(); ++i)
@@ -78,33 +77,36 @@ Manifest make_manifest(const Scene& scene, const Atlas& atlas, const BakeOptions
 }
 
 std::string to_json_text(const Manifest& m) {
-    const auto codec = parse_codec_name(m.options.codec);
-    const CodecName name = codec ? *codec : CodecName{};
+    const CodecName name = m.options.codec.empty() ? CodecName{} : parse_codec_name(m.options.codec).value();
     ordered_json pages = ordered_json::array(), objects = ordered_json::array();
     for (const auto& page : m.pages) pages.push_back(to_json(page));
     for (const auto& object : m.objects) objects.push_back(to_json(object, m));
-    const ordered_json document = {
-        {"lobelia_bake", k_bake_version},
-        {"program", m.program},
-        {"scene", {{"name", m.scene_name}, {"hash", fmt::format("{:016x}", m.scene_hash)}, {"file", or_null(m.scene)}}},
-        {"codec",
-         {{"name", m.options.codec},
-          {"basis", name.basis},
-          {"encoder", name.encoder},
-          {"evaluator", name.evaluator},
-          {"coefficients", m.coefficients},
-          {"frame", k_frame_names[static_cast<std::size_t>(m.options.frame)]}}},
-        {"conventions", conventions(m)},
-        {"layout",
-         {{"width", m.width},
-          {"height", m.height},
-          {"precision", k_precision_names[static_cast<std::size_t>(m.precision)]},
-          {"channels", page_channel_names(PageLayout{m.coefficients})},
-          {"pages", std::move(pages)}}},
-        {"objects", std::move(objects)},
-        {"probes", or_null(m.probes)},
-        {"options", all_fields(m.options)},
-        {"statistics", all_fields(m.statistics)}};
+    const ordered_json document = {{"lobelia_bake", k_bake_version},
+                                   {"program", m.program},
+                                   {"scene",
+                                    {{"name", m.scene_name},
+                                     {"hash", fmt::format("{:016x}", m.scene_hash)},
+                                     {"file", or_null(m.scene)},
+                                     {"environment", or_null(m.environment)}}},
+                                   {"warnings", m.warnings},
+                                   {"codec",
+                                    {{"name", m.options.codec},
+                                     {"basis", name.basis},
+                                     {"encoder", name.encoder},
+                                     {"evaluator", name.evaluator},
+                                     {"coefficients", m.coefficients},
+                                     {"frame", k_frame_names[static_cast<std::size_t>(m.options.frame)]}}},
+                                   {"conventions", conventions(m)},
+                                   {"layout",
+                                    {{"width", m.width},
+                                     {"height", m.height},
+                                     {"precision", k_precision_names[static_cast<std::size_t>(m.precision)]},
+                                     {"channels", page_channel_names(PageLayout{m.coefficients})},
+                                     {"pages", std::move(pages)}}},
+                                   {"objects", std::move(objects)},
+                                   {"probes", or_null(m.probes)},
+                                   {"options", all_fields(m.options)},
+                                   {"statistics", all_fields(m.statistics)}};
     return document.dump(1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 
