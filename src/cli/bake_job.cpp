@@ -5,12 +5,11 @@
 
 #include <csignal>
 
+#include "baker/checkpoint.h"
 #include "baker/merge.h"
 #include "baker/output/bake_folder.h"
-#include "baker/preflight.h"
-#include "baker/sites.h"
 #include "cli/common.h"
-#include "report/bake_page.h"
+#include "lobelia/sample.h"
 
 namespace lobelia::cli {
 namespace {
@@ -92,60 +91,6 @@ void print_summary(const Baker& baker, const Bake& bake) {
     if (bake.probes) fmt::print("{} probes\n", bake.probes->size());
 }
 
-/// Without a rate there is no estimate of the time, and no ray is traced.
-Preflight preflight_of(const Baker& baker, std::optional<TraceRate> rate = {}) {
-    PreflightOptions options;
-    options.state_bytes = baker.sites().bytes();
-    options.channels = baker.layout().channels();
-    options.samples = baker.options().samples;
-    options.rate = rate;
-    return preflight(baker.atlas(), baker.texels(), options);
-}
-
-/// The pages' charts and what is wrong with them, as pictures.
-Status write_preflight(const Preflight& checked, const Baker& baker, const fs::path& out) {
-    std::vector<std::string> pictures;
-    for (std::size_t page = 0; page < checked.pages; ++page) {
-        auto png = encode_png(preflight_picture(checked, baker.atlas(), baker.texels(), page));
-        if (!png) return png.error();
-        pictures.push_back(std::move(*png));
-    }
-    std::vector<FileContent> files;
-    for (std::size_t page = 0; page < pictures.size(); ++page)
-        files.push_back({out / fmt::format("preflight-{}.png", page), pictures[page]});
-    return write_into_folder(out, files);
-}
-
-Image to_image(const Image8& picture) {
-    Image image(picture.width, picture.height);
-    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
-        const std::uint8_t* rgb = &picture.rgb[3 * i];
-        image.pixels[i] =
-            Rgb{static_cast<float>(rgb[0]), static_cast<float>(rgb[1]), static_cast<float>(rgb[2])} * (1.0f / 255);
-    }
-    return image;
-}
-
-/// bake.html: nothing where Ctrl-C was pressed while its pictures were made.
-Result<std::string> make_page(const Scene& scene, const Baker& baker, const Bake& bake, const Preflight& checked,
-                              std::span<const std::string> warnings, const RenderOptions& pictures) {
-    BakePage page = bake_page_of(scene, baker, bake);
-    page.warnings.assign(warnings.begin(), warnings.end());
-    for (const auto& warning : lobelia::warnings(checked, scene))
-        page.checks.push_back({PreflightCheck::Level::warning, "preflight", warning});
-    if (page.checks.empty())
-        page.checks.push_back({PreflightCheck::Level::good, "preflight", "Nothing to mend in the lightmap UVs."});
-    constexpr std::size_t most_side = 1024;
-    for (std::size_t p = 0; p < checked.pages; ++p)
-        page.preflight_pictures.push_back(
-            {fmt::format("page {}", p),
-             to_image(preflight_picture(checked, baker.atlas(), baker.texels(), p, most_side))});
-    auto views = render_views(scene, page.light, baker.options().paths, pictures);
-    if (!views) return std::string();
-    page.views = std::move(*views);
-    return bake_html(page);
-}
-
 /// What Ctrl-C leaves: the line that says how to go on, and the exit that shells expect.
 Status stopped(const fs::path& out) {
     complain(fmt::format("lobelia: stopped; go on with: lobelia bake --resume -o {}", out.string()));
@@ -154,105 +99,127 @@ Status stopped(const fs::path& out) {
     return Error{"stopped"};
 }
 
-}  // namespace
+/// One job on its way.
+class JobRun {
+  public:
+    JobRun(const BakeJob& job, JobStart start) : job_(job), start_(start) {}
 
-Status preflight_job(const BakeJob& job) {
-    if (auto status = check_folder(job.out); !status) return status;
-    auto loaded = load_scene(job.scene);
+    [[nodiscard]] Status prepare();
+    [[nodiscard]] Status bake(std::span<const fs::path> shards);
+    [[nodiscard]] Status finish();
+    [[nodiscard]] Status write();
+
+  private:
+    [[nodiscard]] Status finish_pages(const Guides& guides);
+
+    const BakeJob& job_;
+    JobStart start_;
+    std::optional<LoadedScene> loaded_;
+    std::unique_ptr<Baker> baker_;
+    Preflight checked_;
+    Bake bake_;
+};
+
+/// Everything that is cheap to refuse, and warnings.
+Status JobRun::prepare() {
+    if (auto status = check_folder(job_.out); !status) return status;
+    std::error_code code;
+    const fs::path states = region_file(checkpoint_folder(job_.out), 0);
+    if (start_ == JobStart::fresh && fs::exists(states, code))
+        return Error{states.string() +
+                     ": is the checkpoint of an earlier bake; continue it with --resume, or remove it"};
+    auto loaded = load_scene(job_.scene);
     if (!loaded) return loaded.error();
-    for (const auto& warning : loaded->warnings) complain("lobelia: warning: " + warning);
-    const auto baker = Baker::make(loaded->scene, job.bake);
+    loaded_ = std::move(*loaded);
+    for (const auto& warning : loaded_->warnings) complain("lobelia: warning: " + warning);
+    auto baker = Baker::make(loaded_->scene, job_.bake);
     if (!baker) return baker.error();
-    const Preflight checked =
-        preflight_of(**baker, measure_rate((*baker)->atlas(), (*baker)->texels(), (*baker)->tracer()));
-    if (auto status = write_preflight(checked, **baker, job.out); !status) return status;
-    fmt::print("{}", to_text(checked, loaded->scene));
+    baker_ = std::move(*baker);
+    if (!baker_->tracer().has_light()) complain("lobelia: warning: the scene has no light; everything will be black");
+    if (job_.probes.spacing > 0)
+        if (auto status = check(job_.probes, baker_->tracer().world()); !status) return status;
+    checked_ = preflight_of(*baker_);
+    for (const auto& warning : warnings(checked_, loaded_->scene)) complain("lobelia: warning: " + warning);
     return Done{};
 }
 
-Status run_job(const BakeJob& job, JobStart start, std::span<const fs::path> shards) {
-    // Everything that is cheap to refuse, first.
-    if (auto status = check_folder(job.out); !status) return status;
-    auto loaded = load_scene(job.scene);
-    if (!loaded) return loaded.error();
-    for (const auto& warning : loaded->warnings) complain("lobelia: warning: " + warning);
-    auto made = Baker::make(loaded->scene, job.bake);
-    if (!made) return made.error();
-    Baker& baker = **made;
-    if (!baker.tracer().has_light()) complain("lobelia: warning: the scene has no light; everything will be black");
-    if (job.probes.spacing > 0)
-        if (auto status = check(job.probes, baker.tracer().world()); !status) return status;
+Status JobRun::bake(std::span<const fs::path> shards) {
+    if (start_ == JobStart::merged)
+        if (auto status = merge_shards(*baker_, shards); !status) return status;
+    if (start_ != JobStart::rebake)
+        if (auto status = save_job(job_); !status) return status;
+    const bool from_nothing = start_ == JobStart::fresh || start_ == JobStart::rebake;
+    return baker_->run(from_nothing ? Baker::Start::fresh : Baker::Start::resume, interrupted, progress_line("baking"));
+}
 
-    const Preflight checked = preflight_of(baker);
-    std::vector<std::string> said = loaded->warnings;
-    for (const auto& warning : warnings(checked, loaded->scene)) {
-        complain("lobelia: warning: " + warning);
-        said.push_back(warning);
-    }
-
-    // Bake.
-    const StopOnInterrupt stop;
-    if (start == JobStart::merged)
-        if (auto status = merge_shards(baker, shards); !status) return status;
-    if (start != JobStart::rebake)
-        if (auto status = save_job(job); !status) return status;
-    const bool from_nothing = start == JobStart::fresh || start == JobStart::rebake;
-    auto status =
-        baker.run(from_nothing ? Baker::Start::fresh : Baker::Start::resume, interrupted, progress_line("baking"));
-    if (!status && interrupted) return stopped(job.out);
-    if (!status) return status;
-    if (job.bake.shard.count > 1) {
-        fmt::print("part {} of {} is done: {}\n", job.bake.shard.index, job.bake.shard.count, job.out.string());
-        return Done{};
-    }
-
-    // Finish, and put the files together.
-    Bake bake;
-    BakeOptions options = job.bake;
-    options.frame = baker.in_tangent_frame() ? Frame::tangent : Frame::world;
-    bake.manifest = make_manifest(loaded->scene, baker.atlas(), options, baker.statistics());
-    bake.manifest.precision = job.precision;
-    std::vector<Page>& pages = baker.pages();
-    Guides guides = make_guides(baker.atlas(), map_texels(baker.atlas()));
-    denoise_if(job.finish.denoise, pages, baker, guides);
-    if (start == JobStart::rebake) {
-        auto there = read_bake(job.out);
+/// Denoised, put among what is there, seams closed, dilated.
+Status JobRun::finish_pages(const Guides& guides) {
+    std::vector<Page>& pages = baker_->pages();
+    denoise_if(job_.finish.denoise, pages, *baker_, guides);
+    if (start_ == JobStart::rebake) {
+        auto there = read_bake(job_.out);
         if (!there) return there.error();
-        if (status = put_among(*there, baker, pages); !status) return status;
-        bake.probes = std::move(there->probes);
+        if (auto status = put_among(*there, *baker_, pages); !status) return status;
+        bake_.probes = std::move(there->probes);
+        bake_.manifest.statistics = there->manifest.statistics;
+        bake_.manifest.options.only_object.reset();
     }
-    if (job.finish.seams == Switch::on) close_seams(pages, baker.layout(), baker.atlas());
-    if (job.finish.dilate == Switch::on) dilate(pages);
-    if (job.probes.spacing > 0 && start != JobStart::rebake) {
-        auto probes = bake_probes(baker.tracer(), job.probes, job.bake.threads, interrupted, progress_line("probes"));
-        if (!probes && interrupted) return stopped(job.out);
-        if (!probes) return probes.error();
-        bake.probes = std::move(*probes);
-    }
-    bake.pages = std::move(pages);
-    bake.normals = std::move(guides.normal);
-    std::string page;
-    if (job.page) {
-        RenderOptions pictures;
-        pictures.threads = job.bake.threads;
-        pictures.width = job.picture_width;
-        pictures.height = job.picture_height;
-        pictures.samples = job.picture_samples;
-        pictures.stop = &interrupted;
-        pictures.progress = [bar = progress_bar()](double done) {
-            if (bar) bar(done);
-        };
-        auto made_page = make_page(loaded->scene, baker, bake, checked, said, pictures);
-        if (!made_page) return made_page.error();
-        if (interrupted) return stopped(job.out);
-        page = std::move(*made_page);
-    }
-    if (status = write_bake(job.out, bake, {.scene = &loaded->scene}); !status) return status;
-    if (job.page)
-        if (status = write_file_atomically(job.out / "bake.html", page); !status) return status;
-    print_summary(baker, bake);
-    fmt::print("{}\n", (job.out / (job.page ? "bake.html" : "bake.json")).string());
+    if (job_.finish.seams == Switch::on) close_seams(pages, baker_->layout(), baker_->atlas());
+    if (job_.finish.dilate == Switch::on) dilate(pages);
+    bake_.pages = std::move(pages);
     return Done{};
+}
+
+Status JobRun::finish() {
+    BakeOptions options = job_.bake;
+    options.frame = baker_->in_tangent_frame() ? Frame::tangent : Frame::world;
+    bake_.manifest = make_manifest(loaded_->scene, baker_->atlas(), options, baker_->statistics());
+    bake_.manifest.precision = job_.precision;
+    Guides guides = make_guides(baker_->atlas(), map_texels(baker_->atlas()));
+    if (auto status = finish_pages(guides); !status) return status;
+    bake_.normals = std::move(guides.normal);
+    if (!(job_.probes.spacing > 0) || start_ == JobStart::rebake) return Done{};
+    auto probes = bake_probes(baker_->tracer(), job_.probes, job_.bake.threads, interrupted, progress_line("probes"));
+    if (!probes) return probes.error();
+    bake_.probes = std::move(*probes);
+    return Done{};
+}
+
+Status JobRun::write() {
+    std::string page;
+    if (job_.page) {
+        auto made = job_page(job_, loaded_->scene, *baker_, bake_, checked_, interrupted);
+        if (!made) return made.error();
+        page = std::move(*made);
+    }
+    if (auto status = write_bake(job_.out, bake_, {.scene = &loaded_->scene}); !status) return status;
+    const fs::path shown = job_.out / (job_.page ? "bake.html" : "bake.json");
+    if (job_.page)
+        if (auto status = write_file_atomically(shown, page); !status) return status;
+    // The states do not know what was baked anew.
+    std::error_code code;
+    if (start_ == JobStart::rebake)
+        for (std::size_t region = 0; fs::remove(region_file(checkpoint_folder(job_.out), region), code);) ++region;
+    print_summary(*baker_, bake_);
+    fmt::print("{}\n", shown.string());
+    return Done{};
+}
+
+}  // namespace
+
+Status run_job(const BakeJob& job, JobStart start, std::span<const fs::path> shards) {
+    JobRun run(job, start);
+    Status status = run.prepare();
+    if (!status) return status;
+    const StopOnInterrupt stop;
+    status = run.bake(shards);
+    const bool part = job.bake.shard.count > 1;
+    if (status && !part) status = run.finish();
+    if (status && !part) status = run.write();
+    if (interrupted && !status) return stopped(job.out);
+    if (status && part)
+        fmt::print("part {} of {} is done: {}\n", job.bake.shard.index, job.bake.shard.count, job.out.string());
+    return status;
 }
 
 }  // namespace lobelia::cli

@@ -6,6 +6,8 @@
 
 #include "baker/bake.h"
 #include "baker/finish.h"
+#include "baker/output/bake_folder.h"
+#include "baker/preflight.h"
 #include "baker/probe_bake.h"
 #include "cli/scene_input.h"
 #include "io/write_image.h"
@@ -44,6 +46,12 @@ enum class JobStart {
     merged,  ///< with the states of shards, put together
     rebake   ///< from nothing for one object of a finished bake
 };
+
+/// What is known of the lightmap UVs. Without a rate there is no estimate of the time.
+[[nodiscard]] Preflight preflight_of(const Baker& baker, std::optional<TraceRate> rate = {});
+/// bake.html; an error where `stop` was set while its pictures were made.
+[[nodiscard]] Result<std::string> job_page(const BakeJob& job, const Scene& scene, const Baker& baker, const Bake& bake,
+                                           const Preflight& checked, const std::atomic<bool>& stop);
 
 /// Looks at the scene's lightmap UVs and at what the bake would take, before any ray; prints it and writes pictures.
 [[nodiscard]] Status preflight_job(const BakeJob& job);

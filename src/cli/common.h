@@ -3,8 +3,8 @@
 
 #include <CLI/CLI.hpp>
 
-#include "io/read_image.h"
 #include "io/read_file.h"
+#include "io/read_image.h"
 #include "io/write_file.h"
 #include "report/comparison.h"
 #include "report/json.h"

@@ -1,5 +1,6 @@
 // lobelia scene: writes the scenes that the program carries as glTF files.
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include "cli/common.h"
 #include "cli/verbs.h"
@@ -36,10 +37,8 @@ Status scene_verb(const Options& options) {
 Verb add_scene(CLI::App& app) {
     auto options = std::make_shared<Options>();
     CLI::App* command = app.add_subcommand("scene", "Write a scene that the program carries as a glTF file");
-    const auto names = embedded_scene_names();
-    command->add_option("NAME", options->name, "Which one")
-        ->required()
-        ->check(CLI::IsMember(std::vector<std::string>(names.begin(), names.end())));
+    command->add_option("NAME", options->name, fmt::format("Which one: {}", fmt::join(embedded_scene_names(), ", ")))
+        ->required();
     command->add_option("-o,--output", options->out, "The file to write, .glb")->required();
     command->add_option("--environment", options->environment,
                         "Its environment, which glTF cannot hold, as another file (.exr)");
