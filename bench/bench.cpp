@@ -3,6 +3,7 @@
 #include <benchmark/benchmark.h>
 
 #include "bench/machine.h"
+#include "bench/trace.h"
 #include "lobelia/pack.h"
 #include "lobelia/sky.h"
 #include "report/comparison.h"
@@ -192,6 +193,7 @@ void register_all() {
     for (const auto& name : basis_names()) register_basis(make_basis(name).value());
     register_scaling();
     register_storages();
+    register_trace();
     benchmark::RegisterBenchmark(named("reference", "irradiance", k_grid.size()).c_str(), exact_irradiance);
     benchmark::RegisterBenchmark("resize.area.2048x1024", reduce);
     const ComparisonOptions whole, figures{.pictures = false, .convergence = false};

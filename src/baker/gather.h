@@ -42,14 +42,16 @@ struct Gathered {
     std::uint32_t back_faces = 0;  ///< paths that first met the back of a one-sided surface
 };
 
-/// Samples of all receivers, one after another, the same number each: `of(r)` is a receiver's part.
-/// The paths' samples come first; each has a solid angle of 1 where directions are uniform, and in general so that the
-/// mean over many is 1. Then light sources as "splats": a solid angle of nearly 0 (k_splat_share) and a radiance such
-/// that their product is exact; to a sum of moments they add light without counting as directions.
+/// Samples of all receivers, one after another, the same number each, in two parts: directions seen, each with a solid
+/// angle of 1 where directions are uniform, and in general so that the mean over many is 1; and light sources aimed at,
+/// with a solid angle of next to nothing (k_splat_share) and a radiance such that their product is exact.
 class GatherBuffer {
   public:
-    [[nodiscard]] SampleView of(std::size_t receiver) const {
-        return samples_.view().part(receiver * stride_, per_receiver_);
+    [[nodiscard]] SampleView directions(std::size_t receiver) const {
+        return samples_.view().part(receiver * stride_, directions_);
+    }
+    [[nodiscard]] SampleView sources(std::size_t receiver) const {
+        return samples_.view().part(receiver * stride_ + directions_, stride_ - directions_);
     }
     [[nodiscard]] const Gathered& gathered(std::size_t receiver) const { return gathered_[receiver]; }
 
@@ -62,7 +64,8 @@ class GatherBuffer {
     std::vector<Incident> incident_;
     std::vector<DirectLight> direct_;
     std::vector<Vec3> normals_;
-    std::size_t stride_ = 0, per_receiver_ = 0;
+    std::size_t stride_ = 0;      ///< samples of a receiver, a multiple of k_lanes
+    std::size_t directions_ = 0;  ///< of them, those that count as directions; likewise
 };
 
 inline constexpr float k_splat_share = 1e-6f;

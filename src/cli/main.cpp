@@ -25,6 +25,8 @@ and measures how wrong each choice is.
   lobelia reference room.hdr --latlong 64x32 -o exact.exr
   lobelia list --axes                      bases, encoders and evaluators
   lobelia study irradiance                 how good each irradiance formula is
+  lobelia scene cornell -o cornell.glb     a scene to bake
+  lobelia unwrap in.glb -o out.glb         lightmap UVs for a scene of yours
 
 lobelia -h tells more, lobelia VERB -h all of a verb's options.
 )";
@@ -59,10 +61,8 @@ int main(int argc, char** argv) {
     app.require_subcommand(0, 1);
     app.get_formatter()->column_width(36);
     app.footer("lobelia VERB -h tells a verb's options; lobelia alone shows examples.");
-    const std::vector<lobelia::cli::Verb> verbs = {lobelia::cli::add_compare(app), lobelia::cli::add_encode(app),
-                                                   lobelia::cli::add_eval(app),    lobelia::cli::add_reference(app),
-                                                   lobelia::cli::add_convert(app), lobelia::cli::add_list(app),
-                                                   lobelia::cli::add_study(app)};
+    std::vector<lobelia::cli::Verb> verbs;
+    for (const auto& add : lobelia::cli::k_verbs) verbs.push_back(add(app));
 
     try {
         const int code = run(app, verbs, argc, argv);

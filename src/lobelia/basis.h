@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "lobelia/sample.h"
+#include "lobelia/texture_packing.h"
 
 namespace lobelia {
 
@@ -92,6 +93,11 @@ class Basis : public FunctionSet {
     /// Names of the ways to read irradiance from this basis, and one of them (null if unknown).
     [[nodiscard]] virtual std::vector<std::string> evaluator_names() const = 0;
     [[nodiscard]] virtual std::shared_ptr<const Evaluator> evaluator(std::string_view name) const = 0;
+
+    /// The ways to store coefficients in textures; the first is plain_packing.
+    [[nodiscard]] virtual std::vector<std::shared_ptr<const TexturePacking>> packings() const {
+        return {plain_packing(size())};
+    }
 
     /// The same radiance seen in a rotated frame, L'(R w) = L(w): a basis and coefficients that give it exactly.
     struct Rotated {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "report/parse_json.h"
+#include "report/checked_json.h"
 
 namespace lobelia {
 namespace {
@@ -139,7 +139,7 @@ json to_json(const CoefficientFile& file) {
 }
 
 Result<CoefficientFile> coefficients_from_json(std::string_view text, const std::string& name) {
-    const auto parsed = parse_json(text, name);
+    const auto parsed = checked_json(text, name);
     if (!parsed) return parsed.error();
     const json& content = *parsed;
     if (!content.is_object()) return Error{name + ": not a JSON object of coefficients"};

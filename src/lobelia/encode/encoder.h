@@ -23,6 +23,10 @@ class Encoder {
     [[nodiscard]] virtual bool is_non_negative() const { return false; }
 
     virtual void add(std::span<float> state, SampleView samples) const = 0;
+    /// Light that was aimed at, beside what `add` saw in all directions: radiance times solid angle is the irradiance
+    /// across the direction, and the solid angles are next to nothing (2e-3 of the domain's at most in all), so that
+    /// they do not count as directions seen. Encoders for whom every sample is an observation add them as samples.
+    virtual void add_sources(std::span<float> state, SampleView sources) const { add(state, sources); }
     virtual void merge(std::span<float> state, std::span<const float> other) const = 0;
     /// Coefficients from what was seen; zeros where that was nothing. `c` has basis().size() entries.
     virtual void solve(std::span<const float> state, std::span<Rgb> c) const = 0;
@@ -38,6 +42,7 @@ class Accumulator {
         : encoder_(std::move(encoder)), state_(encoder_->state_size()) {}
 
     void add(SampleView samples) { encoder_->add(state_, samples); }
+    void add_sources(SampleView sources) { encoder_->add_sources(state_, sources); }
     void merge(const Accumulator& other) { encoder_->merge(state_, other.state_); }
     [[nodiscard]] std::vector<Rgb> solve() const {
         std::vector<Rgb> c(encoder_->basis().size());

@@ -35,7 +35,7 @@ class MomentEncoder final : public Encoder {
 
     [[nodiscard]] std::size_t state_size() const override {
         const std::size_t n = basis().size();
-        return k_header + 3 * n + (has_gram() ? n * (n + 1) / 2 : 0) + (is_joint() ? 3 * harmonics_.size() : 0);
+        return header() + 3 * n + (has_gram() ? n * (n + 1) / 2 : 0) + (is_joint() ? 3 * harmonics_.size() : 0);
     }
     [[nodiscard]] Merging merging() const override { return Merging::exact; }
     [[nodiscard]] bool is_non_negative() const override {
@@ -44,21 +44,16 @@ class MomentEncoder final : public Encoder {
 
     void add(std::span<float> state, SampleView samples) const override {
         const std::size_t n = basis().size();
-        const std::size_t most = is_joint() ? std::max(n, harmonics_.size()) : n;
-        const auto rows = std::make_unique_for_overwrite<float[]>(most * k_block_size);
-        float* moments = state.data() + k_header;
-        float* gram = moments + 3 * n;
-        float* harmonic_moments = gram + n * (n + 1) / 2;
-        for_each_part(samples, k_block_size, [&](SampleView block, std::size_t) {
-            basis().values(block.directions(), rows.get());
-            state[k_weight] += kernels::add_moments(rows.get(), n, block, moments);
-            add_header(state, block);
-            if (has_gram()) kernels::add_gram(rows.get(), n, block, gram);
-            if (is_joint()) {
-                harmonics_.values(block.directions(), rows.get());
-                kernels::add_moments(rows.get(), harmonics_.size(), block, harmonic_moments);
-            }
+        float* gram = state.data() + header() + 3 * n;
+        add_moments(state, samples, [&](SampleView block, const float* rows, float share) {
+            state[k_weight] += share;
+            if (has_prior()) add_squares(state, block);
+            if (has_gram()) kernels::add_gram(rows, n, block, gram);
         });
+    }
+
+    void add_sources(std::span<float> state, SampleView sources) const override {
+        add_moments(state, sources, [](SampleView, const float*, float) {});
     }
 
     void merge(std::span<float> state, std::span<const float> other) const override {
@@ -72,7 +67,7 @@ class MomentEncoder final : public Encoder {
             return;
         }
         const double normalise = solid_angle(basis().domain()) / state[k_weight];
-        const MatrixXd m = normalise * triples(state.subspan(k_header, 3 * n));
+        const MatrixXd m = normalise * triples(state.subspan(header(), 3 * n));
         const MatrixXd b = coefficients(state, m, normalise);
         for (std::size_t i = 0; i < n; ++i) {
             const auto row = static_cast<Eigen::Index>(i);
@@ -81,8 +76,10 @@ class MomentEncoder final : public Encoder {
     }
 
   private:
-    /// State: sums of w, w^2, w v (three) and w |v|^2, then moments, Gram, harmonic moments.
-    enum : std::size_t { k_weight, k_squared_weight, k_radiance, k_squared_radiance = k_radiance + 3, k_header };
+    /// State: the sum of w; with a prior also those of w v (three), w^2 and w |v|^2; then moments, Gram, harmonic
+    /// moments.
+    enum : std::size_t { k_weight, k_radiance, k_squared_weight = k_radiance + 3, k_squared_radiance, k_prior_header };
+    [[nodiscard]] std::size_t header() const { return has_prior() ? k_prior_header : k_weight + 1; }
 
     [[nodiscard]] bool is_joint() const {
         return solver_ == MomentSolver::joint || solver_ == MomentSolver::joint_non_negative;
@@ -99,27 +96,50 @@ class MomentEncoder final : public Encoder {
         return result;
     }
 
-    void add_header(std::span<float> state, SampleView block) const {
-        if (!has_prior()) return;
+    /// Adds the moments of w v; `with_rows(block, rows, sum of w)` sees the function values of each block.
+    template <class WithRows>
+    void add_moments(std::span<float> state, SampleView samples, const WithRows& with_rows) const {
+        const std::size_t n = basis().size();
+        const std::size_t most = is_joint() ? std::max(n, harmonics_.size()) : n;
+        const auto rows = std::make_unique_for_overwrite<float[]>(most * k_block_size);
+        float* moments = state.data() + header();
+        float* harmonic_moments = state.data() + state.size() - 3 * harmonics_.size();
+        for_each_part(samples, k_block_size, [&](SampleView block, std::size_t) {
+            basis().values(block.directions(), rows.get());
+            const float share = kernels::add_moments(rows.get(), n, block, moments);
+            if (has_prior()) add_radiance(state, block);
+            with_rows(block, rows.get(), share);
+            if (is_joint()) {
+                harmonics_.values(block.directions(), rows.get());
+                kernels::add_moments(rows.get(), harmonics_.size(), block, harmonic_moments);
+            }
+        });
+    }
+
+    static void add_radiance(std::span<float> state, SampleView block) {
+        Rgb sum;
+        for (std::size_t j = 0; j < block.size; ++j)
+            sum = sum + colour_at(block.radiance(), j) * block.solid_angles()[j];
+        state[k_radiance] += sum.r;
+        state[k_radiance + 1] += sum.g;
+        state[k_radiance + 2] += sum.b;
+    }
+
+    static void add_squares(std::span<float> state, SampleView block) {
         float squared_weight = 0, squared_radiance = 0;
-        Rgb radiance;
         for (std::size_t j = 0; j < block.size; ++j) {
             const Rgb v = colour_at(block.radiance(), j);
             const float w = block.solid_angles()[j];
             squared_weight += w * w;
-            radiance = radiance + v * w;
             squared_radiance += w * (v.r * v.r + v.g * v.g + v.b * v.b);
         }
         state[k_squared_weight] += squared_weight;
-        state[k_radiance] += radiance.r;
-        state[k_radiance + 1] += radiance.g;
-        state[k_radiance + 2] += radiance.b;
         state[k_squared_radiance] += squared_radiance;
     }
 
     [[nodiscard]] MatrixXd sampled_gram(std::span<const float> state, double normalise) const {
         const auto n = static_cast<Eigen::Index>(basis().size());
-        const float* next = state.data() + k_header + 3 * n;
+        const float* next = state.data() + header() + 3 * basis().size();
         MatrixXd gram(n, n);
         for (Eigen::Index i = 0; i < n; ++i)
             for (Eigen::Index j = i; j < n; ++j) gram(i, j) = gram(j, i) = normalise * *next++;

@@ -9,12 +9,13 @@
 namespace lobelia {
 namespace {
 
-/// State: sum of weights, number of samples, then b (r, g, b arrays) and one number per lobe, each of size() floats.
+/// State: sum of weights, number of samples, then b (r, g, b arrays) and, if wanted, one number per lobe, each of
+/// size() floats.
 class SequentialEncoder : public Encoder {
   public:
     SequentialEncoder(std::shared_ptr<const Basis> basis_of, Sign sign) : Encoder(std::move(basis_of)), sign_(sign) {}
 
-    [[nodiscard]] std::size_t state_size() const override { return k_header + 4 * basis().size(); }
+    [[nodiscard]] std::size_t state_size() const override { return k_header + arrays() * basis().size(); }
     [[nodiscard]] Merging merging() const override { return Merging::approximate; }
     [[nodiscard]] bool is_non_negative() const override { return sign_ == Sign::non_negative; }
 
@@ -29,7 +30,8 @@ class SequentialEncoder : public Encoder {
         for (std::size_t k = 0; k < 3; ++k) s.b[k] = padded.data() + k * lanes;
         s.per_lobe = padded.data() + 3 * lanes;
         s.floor = padded.data() + 4 * lanes;
-        for (std::size_t k = 0; k < 4; ++k) std::copy_n(state.data() + k_header + k * n, n, padded.data() + k * lanes);
+        for (std::size_t k = 0; k < arrays(); ++k)
+            std::copy_n(state.data() + k_header + k * n, n, padded.data() + k * lanes);
         if (state[k_count] == 0) start(s);
         fill_floor(padded.data() + 4 * lanes);
 
@@ -56,7 +58,8 @@ class SequentialEncoder : public Encoder {
         // Pack it again.
         state[k_weight] = static_cast<float>(progress.weight);
         state[k_count] = static_cast<float>(progress.count);
-        for (std::size_t k = 0; k < 4; ++k) std::copy_n(padded.data() + k * lanes, n, state.data() + k_header + k * n);
+        for (std::size_t k = 0; k < arrays(); ++k)
+            std::copy_n(padded.data() + k * lanes, n, state.data() + k_header + k * n);
     }
 
     void solve(std::span<const float> state, std::span<Rgb> c) const override {
@@ -100,6 +103,7 @@ class SequentialEncoder : public Encoder {
     /// The least denominators; the lanes past the last lobe too.
     virtual void fill_floor(float*) const {}
     [[nodiscard]] virtual bool wants_gains() const { return false; }
+    [[nodiscard]] virtual bool wants_numbers_per_lobe() const { return true; }
     virtual void fill_gains(const float* /*rows*/, std::size_t /*size*/, float* /*to*/) const {}
     /// The step of a sample of weight `weight`; counts it in.
     virtual float step(float weight, Progress& progress) const = 0;
@@ -112,6 +116,7 @@ class SequentialEncoder : public Encoder {
     virtual void merge_per_lobe(float& mine, float other, float share) const { mine += share * (other - mine); }
 
   private:
+    [[nodiscard]] std::size_t arrays() const { return wants_numbers_per_lobe() ? 4 : 3; }
     static void transpose(const float* rows, std::size_t n, std::size_t lanes, std::size_t size, float* to) {
         for (std::size_t i = 0; i < n; ++i)
             for (std::size_t j = 0; j < size; ++j) to[j * lanes + i] = rows[i * k_block_size + j];
@@ -240,6 +245,7 @@ class MatrixGain final : public SequentialEncoder {
 
   protected:
     [[nodiscard]] bool wants_gains() const override { return true; }
+    [[nodiscard]] bool wants_numbers_per_lobe() const override { return false; }
     void fill_gains(const float* rows, std::size_t size, float* to) const override {
         kernels::transform_rows(rows, basis().size(), inverse_.data(), size, to);
     }

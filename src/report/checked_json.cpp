@@ -1,5 +1,5 @@
 // Parses JSON, and says where it is broken.
-#include "report/parse_json.h"
+#include "report/checked_json.h"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -20,7 +20,7 @@ std::string reason(std::string message) {
 
 }  // namespace
 
-Result<nlohmann::json> parse_json(std::string_view text, const std::string& name) {
+Result<nlohmann::json> checked_json(std::string_view text, const std::string& name) {
     try {
         return nlohmann::json::parse(text);
     } catch (const nlohmann::json::parse_error& error) {

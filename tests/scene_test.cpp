@@ -1,0 +1,161 @@
+// Embedded scenes: valid, watertight where they should be, with charts that do not overlap.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+
+#include "lobelia/sky.h"
+#include "scene/chart_packer.h"
+#include "scene/check_scene.h"
+#include "scene/embedded.h"
+#include "scene/lightmap_check.h"
+#include "scene/world.h"
+
+namespace lobelia {
+namespace {
+
+class EmbeddedScenes : public testing::TestWithParam<std::string_view> {
+  protected:
+    [[nodiscard]] static Scene scene() { return embedded_scene(GetParam()).value(); }
+};
+
+TEST_P(EmbeddedScenes, AreValid) {
+    const Status status = check_scene(scene());
+    EXPECT_TRUE(status) << status.error().message;
+}
+
+TEST_P(EmbeddedScenes, AreSmallAndLit) {
+    const World world = make_world(scene());
+    EXPECT_GE(world.triangles.size(), 12u);
+    EXPECT_LE(world.triangles.size(), 12000u);
+    EXPECT_FALSE(scene().cameras.empty());
+    for (std::size_t t = 0; t < world.triangles.size(); ++t) EXPECT_GT(length(world.face_normal(t)), 0.5f) << t;
+}
+
+/// Smooth normals lie on the side of their triangle's front.
+TEST_P(EmbeddedScenes, NormalsAgreeWithWinding) {
+    const Scene scene = this->scene();
+    const World world = make_world(scene);
+    for (std::size_t t = 0; t < world.triangles.size(); ++t)
+        for (const std::uint32_t v : world.triangles[t])
+            EXPECT_GT(dot(world.normals[v], world.face_normal(t)), 0.3f) << scene.objects[world.object[t]].name;
+}
+
+TEST_P(EmbeddedScenes, LightmapUvsDoNotOverlap) {
+    const World world = make_world(scene());
+    const LightmapCheck check = check_lightmap(world, 0, world.has_lightmap_uv.size());
+    EXPECT_EQ(check.outside, 0u);
+    EXPECT_EQ(check.overlapping, 0u);
+    EXPECT_GT(check.covered, 1024u * 1024u / 2);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, EmbeddedScenes,
+                         testing::ValuesIn(embedded_scene_names().begin(), embedded_scene_names().end()),
+                         [](const auto& suite) {
+                             std::string name(suite.param);
+                             std::replace(name.begin(), name.end(), '-', '_');
+                             return name;
+                         });
+
+TEST(EmbeddedScene, UnknownNameListsTheNames) {
+    const auto scene = embedded_scene("teapot");
+    ASSERT_FALSE(scene);
+    EXPECT_NE(scene.error().message.find("cornell, cornell-closed, colonnade"), std::string::npos);
+}
+
+/// Edges by the positions of their ends; those of a closed room without its blocks and lamp are shared by two faces.
+TEST(Cornell, ClosedRoomIsWatertight) {
+    Scene scene = cornell_scene({.closed = true, .blocks = false});
+    std::erase_if(scene.objects, [](const Object& o) { return o.name == "lamp"; });
+    const World world = make_world(scene);
+    std::map<std::array<float, 6>, int> edges;
+    for (const auto& triangle : world.triangles)
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Vec3 a = world.positions[triangle[k]], b = world.positions[triangle[(k + 1) % 3]];
+            ++edges[{a.x, a.y, a.z, b.x, b.y, b.z}];
+            --edges[{b.x, b.y, b.z, a.x, a.y, a.z}];
+        }
+    for (const auto& [edge, count] : edges) EXPECT_EQ(count, 0);
+    EXPECT_EQ(world.triangles.size(), 12u);
+}
+
+TEST(Colonnade, SunIsTheSkysSun) {
+    const Scene scene = colonnade_scene();
+    ASSERT_EQ(scene.lights.size(), 1u);
+    const PunctualLight& sun = scene.lights[0];
+    EXPECT_NEAR(sun.angular_radius, 0.2665 * k_pi / 180, 1e-7);
+    EXPECT_LT(sun.direction.y, -0.4f);
+    // Direct sunlight at that height is 300 to 900 W/m^2 of visible light by 179 lm/W.
+    EXPECT_GT(luminance(sun.intensity), 200);
+    EXPECT_LT(luminance(sun.intensity), 900);
+    ASSERT_TRUE(scene.environment);
+    for (const Rgb& p : scene.environment->pixels) EXPECT_LT(luminance(p), 1000);
+}
+
+TEST(LightmapCheck, FindsOverlapsAndStrays) {
+    Scene scene = cornell_scene();
+    World world = make_world(scene);
+    const auto vertex = [&](std::size_t object) { return world.triangles[world.first_triangle[object]][0]; };
+    const std::size_t objects = scene.objects.size();
+    world.lightmap_uv[vertex(2)] = {1.5f, 0.5f};
+    EXPECT_GT(check_lightmap(world, 0, objects).outside, 0u);
+    EXPECT_GT(check_lightmap(world, 0, objects).overlapping, 0u);
+
+    // Each by itself is free of overlaps; two in the same place are not.
+    world = make_world(scene);
+    for (std::size_t i = 0; i < 4; ++i) world.lightmap_uv[vertex(1) + i] = world.lightmap_uv[vertex(0) + i];
+    EXPECT_EQ(check_lightmap(world, 0, 1).overlapping, 0u);
+    EXPECT_EQ(check_lightmap(world, 1, 2).overlapping, 0u);
+    const LightmapCheck both = check_lightmap(world, 0, 2);
+    EXPECT_EQ(both.overlapping, both.covered);
+    EXPECT_EQ(world.object[both.first_overlapping], 1u);
+}
+
+TEST(ChartPacker, PlacesKeepTheirDistance) {
+    std::vector<ChartSize> sizes;
+    for (std::uint32_t i = 0; i < 40; ++i) sizes.push_back({1 + i * 7 % 23, 1 + i * 11 % 17});
+    constexpr std::uint32_t k_side = 128, k_padding = 4;
+    const auto places = pack_charts(sizes, k_side, k_padding);
+    ASSERT_TRUE(places);
+    for (std::size_t i = 0; i < sizes.size(); ++i) {
+        EXPECT_LE((*places)[i].x + sizes[i].width, k_side - k_padding / 2);
+        EXPECT_LE((*places)[i].y + sizes[i].height, k_side - k_padding / 2);
+        for (std::size_t k = 0; k < i; ++k) {
+            const bool apart_x = (*places)[i].x >= (*places)[k].x + sizes[k].width + k_padding ||
+                                 (*places)[k].x >= (*places)[i].x + sizes[i].width + k_padding;
+            const bool apart_y = (*places)[i].y >= (*places)[k].y + sizes[k].height + k_padding ||
+                                 (*places)[k].y >= (*places)[i].y + sizes[i].height + k_padding;
+            EXPECT_TRUE(apart_x || apart_y) << i << ' ' << k;
+        }
+    }
+    EXPECT_FALSE(pack_charts(sizes, 32, k_padding));
+}
+
+/// Each fault is found where it is.
+TEST(CheckScene, NamesTheFault) {
+    const auto message = [](auto&& spoil) {
+        Scene scene = cornell_scene();
+        spoil(scene);
+        const Status status = check_scene(scene);
+        return status ? std::string("nothing") : status.error().message;
+    };
+    const auto starts = [](const std::string& text, std::string_view with) { return text.starts_with(with); };
+    EXPECT_EQ(message([](Scene&) {}), "nothing");
+    EXPECT_PRED2(starts, message([](Scene& s) { s.meshes[1].positions[2].y = NAN; }), "meshes[1].positions[2]");
+    EXPECT_PRED2(starts, message([](Scene& s) { s.meshes[1].triangles[1][0] = 99; }), "meshes[1].triangles[1]");
+    EXPECT_PRED2(starts, message([](Scene& s) { s.meshes[2].materials[0] = 99; }), "meshes[2].materials[0]");
+    EXPECT_PRED2(starts, message([](Scene& s) { s.meshes[2].normals.pop_back(); }), "meshes[2].normals");
+    EXPECT_PRED2(starts, message([](Scene& s) { s.meshes[2].normals[1] = {0, 2, 0}; }), "meshes[2].normals[1]");
+    EXPECT_PRED2(starts, message([](Scene& s) { s.objects[3].mesh = 77; }), "objects[3]");
+    EXPECT_PRED2(starts, message([](Scene& s) { s.materials[1].base_color.g = 1.5f; }), "materials[1]");
+    EXPECT_PRED2(starts, message([](Scene& s) { s.materials[1].emission.b = INFINITY; }), "materials[1].emission");
+    EXPECT_PRED2(starts, message([](Scene& s) { s.materials[0].base_color_texture = TextureUse{}; }),
+                 "materials[0].base_color_texture");
+    EXPECT_PRED2(starts, message([](Scene& s) { s.lights.emplace_back().kind = PunctualLight::Kind::directional; }),
+                 "lights[0].direction");
+    EXPECT_PRED2(starts, message([](Scene& s) { s.cameras[0].vertical_field_of_view = 0; }), "cameras[0]");
+    EXPECT_PRED2(starts, message([](Scene& s) { s.environment = Image(2, 0); }), "environment");
+}
+
+}  // namespace
+}  // namespace lobelia
