@@ -3,6 +3,8 @@
 #include <benchmark/benchmark.h>
 
 #include "bench/machine.h"
+#include "bench/trace.h"
+#include "lobelia/pack.h"
 #include "lobelia/sky.h"
 #include "report/comparison.h"
 
@@ -97,6 +99,53 @@ void reduce(benchmark::State& state) {
     count_items(state, large.pixels.size());
 }
 
+/// Coefficients of a page of texels that suit every storage: smooth over the page, all within what the first allows.
+class PackedPage {
+  public:
+    static constexpr std::size_t width = 512, height = 256, coefficients = 4;
+    static CoefficientTraits traits() { return {coefficients, true, true, std::vector<float>(coefficients, 1.0f)}; }
+
+    PackedPage() : values_(3 * coefficients, std::vector<float>(width * height)) {
+        for (std::size_t p = 0; p < values_.size(); ++p)
+            for (std::size_t i = 0; i < values_[p].size(); ++i) {
+                const auto x = static_cast<float>(i % width), y = static_cast<float>(i / width);
+                const float wave = 0.5f + 0.4f * std::sin(0.03f * x + static_cast<float>(p)) * std::cos(0.05f * y);
+                values_[p][i] = p < 3 ? 4 * wave : wave;
+            }
+    }
+    [[nodiscard]] CoefficientPlanes view() const {
+        return {width, height, std::span<const std::vector<float>>(values_), coefficients};
+    }
+    [[nodiscard]] MutableCoefficientPlanes view() {
+        return {width, height, std::span<std::vector<float>>(values_), coefficients};
+    }
+
+  private:
+    std::vector<std::vector<float>> values_;
+};
+
+void count_page(benchmark::State& state) {
+    count_items(state, PackedPage::width * PackedPage::height);
+    // Of the floats that go in or come out.
+    state.SetBytesProcessed(state.iterations() * static_cast<std::int64_t>(PackedPage::width * PackedPage::height * 12 *
+                                                                           PackedPage::coefficients));
+}
+
+void pack_page(benchmark::State& state, const Storage& storage) {
+    const PackedPage page;
+    const TextureLayout layout = storage.layout(PackedPage::traits());
+    for (auto _ : state) benchmark::DoNotOptimize(pack(layout, page.view()));
+    count_page(state);
+}
+
+void unpack_page(benchmark::State& state, const Storage& storage) {
+    PackedPage page;
+    const TextureLayout layout = storage.layout(PackedPage::traits());
+    const auto packed = pack(layout, std::as_const(page).view());
+    for (auto _ : state) unpack(layout, packed, page.view());
+    count_page(state);
+}
+
 void whole_comparison(benchmark::State& state, const ComparisonOptions& options) {
     for (auto _ : state) benchmark::DoNotOptimize(compare(environment(), all_codecs(), options));
     count_items(state, all_codecs().size());
@@ -133,11 +182,22 @@ void register_scaling() {
                 [=, encoder = make_encoder(name, basis).value()](benchmark::State& s) { encode(s, encoder, count); });
 }
 
+/// An item is a texel of four coefficients.
+void register_storages() {
+    for (const Storage& storage : storages()) {
+        const std::string name(storage.name);
+        benchmark::RegisterBenchmark(("pack." + name).c_str(), [&](benchmark::State& s) { pack_page(s, storage); });
+        benchmark::RegisterBenchmark(("unpack." + name).c_str(), [&](benchmark::State& s) { unpack_page(s, storage); });
+    }
+}
+
 void register_all() {
     benchmark::RegisterBenchmark(named("machine", std::string("exp-") + target_name(), 4096).c_str(), machine_exp);
     benchmark::RegisterBenchmark(named("machine", std::string("fma-") + target_name(), 16000).c_str(), machine_fma);
     for (const auto& name : basis_names()) register_basis(make_basis(name).value());
     register_scaling();
+    register_storages();
+    register_trace();
     benchmark::RegisterBenchmark(named("reference", "irradiance", k_grid.size()).c_str(), exact_irradiance);
     benchmark::RegisterBenchmark("resize.area.2048x1024", reduce);
     const ComparisonOptions whole, figures{.pictures = false, .convergence = false};

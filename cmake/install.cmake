@@ -8,6 +8,9 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/src/lobelia/ DESTINATION ${CMAKE_INSTALL
   FILES_MATCHING PATTERN "*.h" PATTERN kernels.h EXCLUDE PATTERN lanes-inl.h EXCLUDE)
 if(TARGET lobelia_cli)
   install(TARGETS lobelia_cli)
+  # What lobelia unwrap runs; its packages come by npm ci.
+  install(FILES ${PROJECT_SOURCE_DIR}/tools/unwrap.mjs ${PROJECT_SOURCE_DIR}/tools/package.json
+    ${PROJECT_SOURCE_DIR}/tools/package-lock.json DESTINATION ${CMAKE_INSTALL_DATADIR}/lobelia/tools)
 endif()
 
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/lobelia)

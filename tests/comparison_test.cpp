@@ -166,6 +166,63 @@ TEST(Comparison, ProgressRisesToOne) {
     EXPECT_NEAR(seen.back(), 1, 1e-9);
 }
 
+// ---- Storages ----
+
+std::vector<const Storage*> all_storages() {
+    std::vector<const Storage*> all;
+    for (const Storage& storage : storages()) all.push_back(&storage);
+    return all;
+}
+
+TEST(StoredCoefficients, KeepEveryStoragesBound) {
+    // Coefficients of both signs and of one, of every basis; how they are read as irradiance makes no difference.
+    std::vector<CodecName> codecs;
+    for (const CodecName& name : all_codecs())
+        if ((name.encoder == "moments" || name.encoder == "joint" || name.encoder == "nnls") &&
+            name.evaluator == make_basis(name.basis).value()->evaluator_names().front())
+            codecs.push_back(name);
+    auto options = figures_only();
+    options.storages = all_storages();
+    const Comparison result = compare(test::small_sky(), codecs, options).value();
+    std::map<std::string, std::size_t> count;
+    for (const Method& m : result.methods) {
+        SCOPED_TRACE(m.name.str());
+        EXPECT_FALSE(m.storage.empty());
+        for (const StorageErrors& s : m.storage) {
+            ++count[s.storage];
+            EXPECT_LE(s.bound_used, 1) << s.storage;
+            EXPECT_LE(s.largest_error, s.bound * 1.0001 + 2e-6) << s.storage;
+            EXPECT_EQ(s.cut, 0u) << s.storage;
+            EXPECT_TRUE(std::isfinite(s.radiance_rms) && std::isfinite(s.irradiance_over_pi_rms)) << s.storage;
+            EXPECT_GT(s.bytes, 0) << s.storage;
+        }
+        // Floats lose nothing.
+        EXPECT_EQ(m.storage.front().storage, storages().front().name);
+        EXPECT_EQ(m.storage.front().radiance_rms, m.radiance.rms);
+        EXPECT_EQ(m.storage.front().irradiance_over_pi_rms, m.irradiance_over_pi.rms);
+    }
+    for (const Storage& storage : storages()) EXPECT_GT(count[std::string(storage.name)], 0u) << storage.name;
+}
+
+TEST(StoredCoefficients, ChangeNothingElse) {
+    auto options = figures_only();
+    const std::vector<CodecName> codecs = {{"sh1", "least-squares", "convolution"}, {"sg12", "nnls", "exact"}};
+    json without = timeless(compare(test::small_sky(), codecs, options).value());
+    options.storages = all_storages();
+    json with = timeless(compare(test::small_sky(), codecs, options).value());
+    for (json& m : with["methods"]) {
+        ASSERT_TRUE(m["storage"].is_array());
+        for (const json& s : m["storage"]) {
+            EXPECT_TRUE(s["name"].is_string());
+            for (const char* key :
+                 {"bytes", "radiance_rms", "irradiance_over_pi_rms", "largest_error", "bound", "bound_used", "cut"})
+                EXPECT_TRUE(s[key].is_number()) << key;
+        }
+        m.erase("storage");
+    }
+    EXPECT_EQ(with, without);
+}
+
 // ---- report.json ----
 
 TEST(ReportJson, HasTheFieldsOfItsSchema) {

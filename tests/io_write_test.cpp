@@ -1,16 +1,13 @@
 // Files are written whole or not at all, and what the writers store the readers return.
 #include <fcntl.h>
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 #include <sys/stat.h>
 
 #include <algorithm>
 #include <cmath>
-#include <csignal>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
+#include "folders.h"
 #include "io/read_image.h"
 #include "io/write_file.h"
 #include "io/write_image.h"
@@ -21,45 +18,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string contents(const fs::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-}
+using test::contents;
 
 /// An empty folder of one test.
 class WriteFile : public ::testing::Test {
   protected:
-    WriteFile()
-        : folder_(fs::path(::testing::TempDir()) / ::testing::UnitTest::GetInstance()->current_test_info()->name()) {
-        fs::remove_all(folder_);
-        fs::create_directories(folder_);
-    }
-    ~WriteFile() override { fs::remove_all(folder_); }
-    [[nodiscard]] std::size_t entries() const {
-        return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
-    }
+    WriteFile() : holder_(::testing::UnitTest::GetInstance()->current_test_info()->name()), folder_(holder_.path()) {}
+    [[nodiscard]] std::size_t entries() const { return holder_.entries(); }
 
+    test::TestFolder holder_;
     fs::path folder_;
-};
-
-/// No file may grow beyond `bytes` while this lives: writing fails then, as on a full disk.
-class FileSizeLimit {
-  public:
-    explicit FileSizeLimit(rlim_t bytes) : old_handler_(std::signal(SIGXFSZ, SIG_IGN)) {
-        ::getrlimit(RLIMIT_FSIZE, &old_limit_);
-        const rlimit limit{bytes, old_limit_.rlim_max};
-        ::setrlimit(RLIMIT_FSIZE, &limit);
-    }
-    ~FileSizeLimit() {
-        ::setrlimit(RLIMIT_FSIZE, &old_limit_);
-        std::signal(SIGXFSZ, old_handler_);
-    }
-    FileSizeLimit(const FileSizeLimit&) = delete;
-    FileSizeLimit& operator=(const FileSizeLimit&) = delete;
-
-  private:
-    rlimit old_limit_{};
-    void (*old_handler_)(int);
 };
 
 TEST_F(WriteFile, RoundTripLeavesNothingElse) {
@@ -83,7 +51,7 @@ TEST_F(WriteFile, PermissionsOfTheOldFileAreKept) {
 TEST_F(WriteFile, FullDiskKeepsTheOldFile) {
     ASSERT_TRUE(write_file_atomically(folder_ / "file", std::string_view("old")));
     const Status status = [&] {
-        const FileSizeLimit limit(1000);
+        const test::FileSizeLimit limit(1000);
         return write_file_atomically(folder_ / "file", std::string(5000, 'x'));
     }();
     ASSERT_FALSE(status);

@@ -3,24 +3,15 @@
 #include "lobelia/kernels.h"
 
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 
 #include <functional>
 
 #include "lobelia/codec.h"
 #include "support.h"
+#include "targets.h"
 
 namespace lobelia {
 namespace {
-
-/// Lets only `targets` be used while it lives.
-class OnlyTargets {
-  public:
-    explicit OnlyTargets(std::int64_t targets) { hwy::SetSupportedTargetsForTest(targets); }
-    ~OnlyTargets() { hwy::SetSupportedTargetsForTest(0); }
-    OnlyTargets(const OnlyTargets&) = delete;
-    OnlyTargets& operator=(const OnlyTargets&) = delete;
-};
 
 using Run = std::function<std::vector<float>()>;
 
@@ -30,7 +21,7 @@ void expect_equal_on_all_targets(const Run& run, const std::string& what, double
     double scale = least_scale;
     for (const float v : expected) scale = std::max(scale, static_cast<double>(std::abs(v)));
     for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
-        const OnlyTargets only(target);
+        const test::OnlyTargets only(target);
         const std::vector<float> found = run();
         ASSERT_EQ(found.size(), expected.size());
         double worst = 0;
@@ -188,7 +179,7 @@ TEST(Kernels, CombineWritesNothingBeyondItsEnd) {
         const auto rows = rows_of(directions);
         const std::vector<Rgb> c(12, Rgb{1, 1, 1});
         for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
-            const OnlyTargets only(target);
+            const test::OnlyTargets only(target);
             // A view of the beginning of something longer.
             Colours out(size + 40);
             for (std::size_t k = 0; k < 3; ++k) std::fill_n(out.channel(k), size + 40, -7.0f);

@@ -8,6 +8,7 @@
 #include "scene/chart_packer.h"
 #include "scene/check_scene.h"
 #include "scene/embedded.h"
+#include "scene/lightmap_check.h"
 #include "scene/world.h"
 
 namespace lobelia {
@@ -40,41 +41,12 @@ TEST_P(EmbeddedScenes, NormalsAgreeWithWinding) {
             EXPECT_GT(dot(world.normals[v], world.face_normal(t)), 0.3f) << scene.objects[world.object[t]].name;
 }
 
-/// Twice the area of a triangle in UV space, positive where it turns as x to y.
-double area(Vec2 a, Vec2 b, Vec2 c) {
-    return static_cast<double>(b.x - a.x) * static_cast<double>(c.y - a.y) -
-           static_cast<double>(c.x - a.x) * static_cast<double>(b.y - a.y);
-}
-
-/// Texel centres of a fine grid are covered at most once, and by triangles of one turn.
 TEST_P(EmbeddedScenes, LightmapUvsDoNotOverlap) {
     const World world = make_world(scene());
-    constexpr int k_grid = 1024;
-    std::vector<std::uint8_t> covered(k_grid * k_grid);
-    std::size_t twice = 0, once = 0;
-    for (const auto& triangle : world.triangles) {
-        std::array<Vec2, 3> p;
-        for (std::size_t k = 0; k < 3; ++k) {
-            p[k] = world.lightmap_uv[triangle[k]];
-            ASSERT_TRUE(p[k].x >= 0 && p[k].x <= 1 && p[k].y >= 0 && p[k].y <= 1);
-            // An irrational shift, so that no centre lies on an edge.
-            p[k] = {p[k].x * k_grid + 0.0137f, p[k].y * k_grid + 0.0071f};
-        }
-        ASSERT_GT(area(p[0], p[1], p[2]), 0);
-        const auto [x0, x1] = std::minmax({p[0].x, p[1].x, p[2].x});
-        const auto [y0, y1] = std::minmax({p[0].y, p[1].y, p[2].y});
-        for (int y = static_cast<int>(y0); y <= static_cast<int>(y1) && y < k_grid; ++y)
-            for (int x = static_cast<int>(x0); x <= static_cast<int>(x1) && x < k_grid; ++x) {
-                const Vec2 c{static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f};
-                if (area(p[0], p[1], c) <= 0 || area(p[1], p[2], c) <= 0 || area(p[2], p[0], c) <= 0) continue;
-                std::uint8_t& count = covered[static_cast<std::size_t>(y * k_grid + x)];
-                once += count == 0;
-                twice += count == 1;
-                count = static_cast<std::uint8_t>(std::min(count + 1, 2));
-            }
-    }
-    EXPECT_EQ(twice, 0u);
-    EXPECT_GT(once, 0.5 * k_grid * k_grid);
+    const LightmapCheck check = check_lightmap(world, 0, world.has_lightmap_uv.size());
+    EXPECT_EQ(check.outside, 0u);
+    EXPECT_EQ(check.overlapping, 0u);
+    EXPECT_GT(check.covered, 1024u * 1024u / 2);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, EmbeddedScenes,
@@ -118,6 +90,25 @@ TEST(Colonnade, SunIsTheSkysSun) {
     EXPECT_LT(luminance(sun.intensity), 900);
     ASSERT_TRUE(scene.environment);
     for (const Rgb& p : scene.environment->pixels) EXPECT_LT(luminance(p), 1000);
+}
+
+TEST(LightmapCheck, FindsOverlapsAndStrays) {
+    Scene scene = cornell_scene();
+    World world = make_world(scene);
+    const auto vertex = [&](std::size_t object) { return world.triangles[world.first_triangle[object]][0]; };
+    const std::size_t objects = scene.objects.size();
+    world.lightmap_uv[vertex(2)] = {1.5f, 0.5f};
+    EXPECT_GT(check_lightmap(world, 0, objects).outside, 0u);
+    EXPECT_GT(check_lightmap(world, 0, objects).overlapping, 0u);
+
+    // Each by itself is free of overlaps; two in the same place are not.
+    world = make_world(scene);
+    for (std::size_t i = 0; i < 4; ++i) world.lightmap_uv[vertex(1) + i] = world.lightmap_uv[vertex(0) + i];
+    EXPECT_EQ(check_lightmap(world, 0, 1).overlapping, 0u);
+    EXPECT_EQ(check_lightmap(world, 1, 2).overlapping, 0u);
+    const LightmapCheck both = check_lightmap(world, 0, 2);
+    EXPECT_EQ(both.overlapping, both.covered);
+    EXPECT_EQ(world.object[both.first_overlapping], 1u);
 }
 
 TEST(ChartPacker, PlacesKeepTheirDistance) {

@@ -54,7 +54,7 @@ TexelMap only_of(const TexelMap& map, const World& world, std::uint32_t object) 
 
 }  // namespace
 
-struct Bake::Implementation {
+struct Baker::Implementation {
     const Scene* scene = nullptr;
     BakeOptions options;
     World world;
@@ -78,6 +78,7 @@ struct Bake::Implementation {
         std::uint64_t passes_before = 0, passes_all = 0;
         std::uint64_t tiles_done = 0, tiles_all = 0;
         std::uint64_t rays = 0;
+        double error = 0;
         std::mutex mutex;
         Clock::time_point shown = start;
     };
@@ -103,10 +104,10 @@ struct Bake::Implementation {
     void run_pass(std::span<const Site> sites, std::span<const std::uint32_t> first_of_tile, RegionStates& states,
                   std::uint32_t pass, Run& run) const;
     void report(Run& run, std::uint32_t pass) const;
-    void finish_statistics();
+    [[nodiscard]] double error_of(const RegionStates& states) const;
 };
 
-std::vector<Site> Bake::Implementation::make_sites(std::span<const std::uint32_t> texels) const {
+std::vector<Site> Baker::Implementation::make_sites(std::span<const std::uint32_t> texels) const {
     std::vector<Site> sites(texels.size());
     constexpr std::size_t grain = 1024;
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, texels.size(), grain), [&](const auto& range) {
@@ -123,8 +124,8 @@ std::vector<Site> Bake::Implementation::make_sites(std::span<const std::uint32_t
     return sites;
 }
 
-Result<RegionStates> Bake::Implementation::states_of(std::size_t region, std::span<const std::uint32_t> texels,
-                                                     Start start) {
+Result<RegionStates> Baker::Implementation::states_of(std::size_t region, std::span<const std::uint32_t> texels,
+                                                      Start start) {
     RegionStates fresh(texels.size(), layout->floats());
     fresh.header.bake = hash;
     fresh.header.texels = hash_of_texels(texels);
@@ -155,8 +156,8 @@ Result<RegionStates> Bake::Implementation::states_of(std::size_t region, std::sp
     return kept;
 }
 
-void Bake::Implementation::run_pass(std::span<const Site> sites, std::span<const std::uint32_t> first_of_tile,
-                                    RegionStates& states, std::uint32_t pass, Run& run) const {
+void Baker::Implementation::run_pass(std::span<const Site> sites, std::span<const std::uint32_t> first_of_tile,
+                                     RegionStates& states, std::uint32_t pass, Run& run) const {
     const PassOptions pass_of = pass_options(pass);
     tbb::enumerable_thread_specific<SiteWorker> workers([&] { return SiteWorker(*tracer); });
     tbb::parallel_for(std::size_t{0}, first_of_tile.size() - 1, [&](std::size_t tile) {
@@ -174,7 +175,7 @@ void Bake::Implementation::run_pass(std::span<const Site> sites, std::span<const
     for (const SiteWorker& worker : workers) states.header.rays += worker.rays();
 }
 
-void Bake::Implementation::report(Run& run, std::uint32_t pass) const {
+void Baker::Implementation::report(Run& run, std::uint32_t pass) const {
     if (!run.sink) return;
     const auto now = Clock::now();
     if (std::chrono::duration<double>(now - run.shown).count() < 0.1 && run.tiles_done < run.tiles_all) return;
@@ -185,12 +186,27 @@ void Bake::Implementation::report(Run& run, std::uint32_t pass) const {
         static_cast<double>(run.tiles_done) / static_cast<double>(std::max<std::uint64_t>(1, run.tiles_all));
     progress.rays_per_second = static_cast<double>(run.rays) / std::max(1e-3, seconds);
     progress.seconds_left = progress.done > 0 ? seconds * (1 / progress.done - 1) : 0;
+    progress.error = run.error;
     progress.pass = pass + 1 - plan.first_pass;
     progress.passes = plan.passes();
     run.sink(progress);
 }
 
-Status Bake::Implementation::run_region(std::size_t region, Start start, Run& run) {
+/// RMS of the standard errors over the mean of E, as the statistics have it in the end.
+double Baker::Implementation::error_of(const RegionStates& states) const {
+    double squared = 0, mean = 0, count = 0;
+    for (std::size_t i = 0; i < states.header.sites; ++i) {
+        const auto state = states.states().subspan(i * layout->floats(), layout->floats());
+        const SiteSummary is = summary(layout->record(state), options.samples_per_pass);
+        if (is.validity < 0.5f || !std::isfinite(is.error)) continue;
+        squared += static_cast<double>(is.error) * is.error;
+        mean += luminance(is.irradiance);
+        count += 1;
+    }
+    return mean > 0 ? std::sqrt(squared / count) / (mean / count) : 0;
+}
+
+Status Baker::Implementation::run_region(std::size_t region, Start start, Run& run) {
     const std::vector<std::uint32_t> texels = plan.texels(map, region);
     auto loaded = states_of(region, texels, start);
     if (!loaded) return loaded.error();
@@ -212,6 +228,7 @@ Status Bake::Implementation::run_region(std::size_t region, Start start, Run& ru
         const auto pass_start = Clock::now();
         run_pass(sites, first_of_tile, states, states.header.end_pass, run);
         if (run.stop) return Error{"stopped"};
+        if (run.sink) run.error = error_of(states);
         ++states.header.end_pass;
         states.header.seconds += seconds_since(pass_start);
         if (options.checkpoint.empty()) continue;
@@ -227,11 +244,11 @@ Status Bake::Implementation::run_region(std::size_t region, Start start, Run& ru
     return Done{};
 }
 
-Bake::Bake() : implementation_(std::make_unique<Implementation>()) {}
-Bake::~Bake() = default;
+Baker::Baker() : implementation_(std::make_unique<Implementation>()) {}
+Baker::~Baker() = default;
 
-Result<std::unique_ptr<Bake>> Bake::make(const Scene& scene, const BakeOptions& options) {
-    std::unique_ptr<Bake> bake(new Bake);
+Result<std::unique_ptr<Baker>> Baker::make(const Scene& scene, const BakeOptions& options) {
+    std::unique_ptr<Baker> bake(new Baker);
     Implementation& self = *bake->implementation_;
     self.scene = &scene;
     self.options = options;
@@ -266,10 +283,11 @@ Result<std::unique_ptr<Bake>> Bake::make(const Scene& scene, const BakeOptions& 
     // Memory: pages and the scene are always there, states and sites as far as they fit.
     self.layout.emplace(self.encoder());
     const std::size_t texels = self.atlas.width() * self.atlas.height() * self.atlas.pages();
-    constexpr std::size_t bytes_per_triangle = 300;  // vertices, Embree's tree, shading data
+    // The scene and the world's vertices, Embree's tree, shading data: about 500 as measured on a million triangles.
+    constexpr std::size_t bytes_per_triangle = 600, bytes_of_program = 64 << 20;
     const std::size_t always = texels * (bake->layout().channels() * sizeof(float) + 2 * sizeof(std::uint32_t)) +
                                self.map.texels.size() * (sizeof(CoveredTexel) + sizeof(std::uint32_t)) +
-                               self.world.triangles.size() * bytes_per_triangle;
+                               self.world.triangles.size() * bytes_per_triangle + bytes_of_program;
     auto plan = make_plan(self.map, options, self.layout->bytes() + sizeof(Site) + sizeof(std::uint32_t), always);
     if (!plan) return plan.error();
     self.plan = std::move(*plan);
@@ -279,7 +297,7 @@ Result<std::unique_ptr<Bake>> Bake::make(const Scene& scene, const BakeOptions& 
     return bake;
 }
 
-Status Bake::run(Start start, const std::atomic<bool>& stop, const BakeProgressSink& progress) {
+Status Baker::run(Start start, const std::atomic<bool>& stop, const BakeProgressSink& progress) {
     Implementation& self = *implementation_;
     self.statistics = {};
     self.totals = {};
@@ -300,18 +318,18 @@ Status Bake::run(Start start, const std::atomic<bool>& stop, const BakeProgressS
     return Done{};
 }
 
-const BakeOptions& Bake::options() const { return implementation_->options; }
-const Atlas& Bake::atlas() const { return implementation_->atlas; }
-const TexelMap& Bake::texels() const { return implementation_->map; }
-const BakePlan& Bake::plan() const { return implementation_->plan; }
-const SiteLayout& Bake::sites() const { return *implementation_->layout; }
-std::uint64_t Bake::hash() const { return implementation_->hash; }
-const PathTracer& Bake::tracer() const { return *implementation_->tracer; }
-const Codec* Bake::codec() const { return implementation_->codec ? &*implementation_->codec : nullptr; }
-PageLayout Bake::layout() const { return {codec() == nullptr ? 0 : codec()->basis().size()}; }
-bool Bake::in_tangent_frame() const { return implementation_->in_tangent_frame(); }
-std::vector<Page>& Bake::pages() { return implementation_->pages; }
-const BakeStatistics& Bake::statistics() const { return implementation_->statistics; }
+const BakeOptions& Baker::options() const { return implementation_->options; }
+const Atlas& Baker::atlas() const { return implementation_->atlas; }
+const TexelMap& Baker::texels() const { return implementation_->map; }
+const BakePlan& Baker::plan() const { return implementation_->plan; }
+const SiteLayout& Baker::sites() const { return *implementation_->layout; }
+std::uint64_t Baker::hash() const { return implementation_->hash; }
+const PathTracer& Baker::tracer() const { return *implementation_->tracer; }
+const Codec* Baker::codec() const { return implementation_->codec ? &*implementation_->codec : nullptr; }
+PageLayout Baker::layout() const { return {codec() == nullptr ? 0 : codec()->basis().size()}; }
+bool Baker::in_tangent_frame() const { return implementation_->in_tangent_frame(); }
+std::vector<Page>& Baker::pages() { return implementation_->pages; }
+const BakeStatistics& Baker::statistics() const { return implementation_->statistics; }
 
 std::uint64_t state_hash(const Scene& scene, const BakeOptions& o) {
     // As text, so that nothing depends on how structures are padded.

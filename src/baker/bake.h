@@ -27,7 +27,7 @@ struct Shard {
 };
 
 struct BakeOptions {
-    std::string codec = "sh1/moments/convolution";  ///< empty: plain irradiance at the shading normal
+    std::string codec = default_codec();  ///< empty: plain irradiance at the shading normal
     Frame frame = Frame::world;
     AtlasOptions atlas;
     PathOptions paths;
@@ -65,15 +65,16 @@ struct BakeProgress {
     double done = 0;  ///< of all passes of all regions, in [0, 1]
     double rays_per_second = 0;
     double seconds_left = 0;
+    double error = 0;  ///< mean_error of the region after its last pass; 0: not known yet
     std::uint32_t pass = 0, passes = 0;
 };
 using BakeProgressSink = std::function<void(const BakeProgress&)>;
 
-class Bake {
+class Baker {
   public:
     /// Lays out the atlas and checks that codec, memory and options go together. The scene must outlive the bake.
-    [[nodiscard]] static Result<std::unique_ptr<Bake>> make(const Scene& scene, const BakeOptions& options);
-    ~Bake();
+    [[nodiscard]] static Result<std::unique_ptr<Baker>> make(const Scene& scene, const BakeOptions& options);
+    ~Baker();
 
     /// Runs all passes that are missing, and solves. Where options.checkpoint holds states of this very bake they are
     /// continued if `resume`, else they are an error. `stop` ends the run at once: what the last checkpoint holds
@@ -97,7 +98,7 @@ class Bake {
     [[nodiscard]] const BakeStatistics& statistics() const;
 
   private:
-    Bake();
+    Baker();
     struct Implementation;
     std::unique_ptr<Implementation> implementation_;
 };

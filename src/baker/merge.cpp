@@ -30,7 +30,7 @@ Result<std::vector<fs::path>> region_files(std::span<const fs::path> checkpoints
 
 class Merger {
   public:
-    explicit Merger(const Bake& bake) : bake_(bake), place_(bake.texels().texels.size()) {}
+    explicit Merger(const Baker& bake) : bake_(bake), place_(bake.texels().texels.size()) {}
 
     [[nodiscard]] Status merge_region(std::size_t region, std::span<const fs::path> files) {
         const std::vector<std::uint32_t> texels = bake_.plan().texels(bake_.texels(), region);
@@ -114,7 +114,7 @@ class Merger {
         for (std::size_t i = 0; i < record.size(); ++i) record[i] += other[i];
     }
 
-    const Bake& bake_;
+    const Baker& bake_;
     std::vector<std::uint32_t> place_, passes_;
     std::set<std::pair<std::uint32_t, std::uint32_t>> seen_;  ///< shard and first place of the files taken
     std::vector<fs::path> counted_;
@@ -122,13 +122,27 @@ class Merger {
 
 }  // namespace
 
-Status merge_shards(const Bake& bake, std::span<const fs::path> checkpoints) {
+Status merge_shards(const Baker& bake, std::span<const fs::path> checkpoints) {
     const auto files = region_files(checkpoints);
     if (!files) return files.error();
+    const fs::path& folder = bake.options().checkpoint;
+    std::error_code code;
+    if (fs::exists(region_file(folder, 0), code))
+        return Error{folder.string() + ": holds the states of a bake already; merge into another folder"};
+    const bool made_out = fs::create_directory(folder.parent_path(), code), made = fs::create_directory(folder, code);
+
     Merger merger(bake);
+    Status status = Done{};
+    for (std::size_t region = 0; region < bake.plan().regions.size() && status; ++region)
+        status = merger.merge_region(region, *files);
+    if (status) return status;
+
+    // Leave nothing of a merge that failed.
     for (std::size_t region = 0; region < bake.plan().regions.size(); ++region)
-        if (auto status = merger.merge_region(region, *files); !status) return status;
-    return Done{};
+        fs::remove(region_file(folder, region), code);
+    if (made) fs::remove(folder, code);
+    if (made_out) fs::remove(folder.parent_path(), code);
+    return status;
 }
 
 }  // namespace lobelia

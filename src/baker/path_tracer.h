@@ -35,7 +35,7 @@ struct Incident {
     Rgb scattered;           ///< radiance from there that has met a surface at least once [W/(m^2 sr)]
     Rgb emitted;             ///< radiance of the source that the ray meets first, environment included
     float source_pdf = 0;    ///< density [1/sr] with which `direct` would have chosen this direction; 0: never
-    float distance = 0;      ///< to the first opaque surface [m]; infinite where there is none
+    float distance = 0;      ///< to the first surface that stops light, or that back face [m]; infinite: none
     bool back_face = false;  ///< the first surface shows its back, and it is a one-sided material: a leak
 };
 
@@ -59,20 +59,27 @@ class PathTracer {
     [[nodiscard]] std::unique_ptr<Scratch, void (*)(Scratch*)> make_scratch() const;
 
     /// Follows each path; `out` has one entry for each. Any number at a time; a few hundred fill the machine.
-    void trace(std::span<const PathStart> starts, std::span<Incident> out, Scratch& scratch) const;
+    /// `normals` (one each, or none) are those that `direct` is given for the same starts: `source_pdf` depends on
+    /// them.
+    void trace(std::span<const PathStart> starts, std::span<const Vec3> normals, std::span<Incident> out,
+               Scratch& scratch) const;
+    void trace(std::span<const PathStart> starts, std::span<Incident> out, Scratch& scratch) const {
+        trace(starts, {}, out, scratch);
+    }
 
     /// One light source for each start (its direction is ignored), chosen in proportion to power and, roughly,
     /// distance; lights below the plane through the origin with `normal` are not chosen where normals are given (one
-    /// each, or none).
+    /// each, or none). Nothing where next_event is off. As receivers may not see the backs of one-sided surfaces, these
+    /// hide the light.
     void direct(std::span<const PathStart> starts, std::span<const Vec3> normals, std::span<DirectLight> out,
                 Scratch& scratch) const;
 
-    /// Closest hits without shading, for whoever asks about the geometry.
+    /// Closest hits without shading, for whoever asks about the geometry. Every surface counts, whatever its material.
     struct Hit {
         float distance = 0;  ///< infinite: none
         std::uint32_t triangle = 0;
-        float u = 0, v = 0;  ///< barycentric weights of the triangle's vertices 1 and 2
-        bool back_face = false;
+        float u = 0, v = 0;      ///< barycentric weights of the triangle's vertices 1 and 2
+        bool back_face = false;  ///< it shows its back, be it one-sided or not
     };
     struct Ray {
         Vec3 origin;
@@ -80,6 +87,8 @@ class PathTracer {
         float farthest = 0;  ///< no hit beyond; infinite: anywhere
     };
     void closest(std::span<const Ray> rays, std::span<Hit> out) const;
+    /// Whether a surface stops light on the ray: backs of one-sided surfaces do not, whatever lies at the same place.
+    [[nodiscard]] bool stops(const Ray& ray) const;
 
     /// Whether there is any light at all: a source, or an environment that is not black.
     [[nodiscard]] bool has_light() const;
@@ -87,6 +96,7 @@ class PathTracer {
     [[nodiscard]] static std::uint64_t rays(const Scratch& scratch);
     [[nodiscard]] const World& world() const;
     [[nodiscard]] const Scene& scene() const;
+    [[nodiscard]] const PathOptions& options() const;
     /// By how much to lift a ray's origin off a surface at `position` so that it does not meet it again [m].
     [[nodiscard]] float lift(Vec3 position) const;
 

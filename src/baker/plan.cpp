@@ -60,6 +60,8 @@ Result<BakePlan> make_plan(const TexelMap& map, const BakeOptions& options, std:
         inside += size;
         plan.regions.back().end = place + 1;
     }
+    // A shard without tiles says so in a region without any.
+    if (plan.regions.empty()) plan.regions.push_back({});
     return plan;
 }
 

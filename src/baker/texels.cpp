@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cmath>
+
+#include "baker/push_out.h"
+#include "baker/texel_points.h"
 
 namespace lobelia {
 namespace {
@@ -16,40 +18,30 @@ constexpr std::uint32_t k_nobody = 0xffffffff;
 /// Which triangle of the texel's chart holds each point of its pattern.
 using Holders = std::array<std::uint32_t, k_most_positions>;
 
-/// The triangle's point with these weights, and its smooth normal there.
-Vec3 position_at(const World& world, std::size_t t, const std::array<float, 3>& w) {
-    const auto& [a, b, c] = world.triangles[t];
-    return world.positions[a] * w[0] + world.positions[b] * w[1] + world.positions[c] * w[2];
-}
-Vec3 normal_at(const World& world, std::size_t t, const std::array<float, 3>& w) {
-    const auto& [a, b, c] = world.triangles[t];
-    const Vec3 n = world.normals[a] * w[0] + world.normals[b] * w[1] + world.normals[c] * w[2];
-    if (const float l = length(n); l > 1e-6f) return n * (1 / l);
-    const Vec3 face = world.face_normal(t);
-    return dot(face, face) > 0 ? face : world.normals[a];
-}
-
 /// Makes the texels [begin, end) of the map, which lie on one tile.
 class TileTexels {
   public:
     TileTexels(const Atlas& atlas, const TexelMap& map, const PathTracer& tracer)
         : atlas_(atlas), map_(map), tracer_(tracer) {}
 
-    void make(std::size_t begin, std::size_t end, Texel* out) {
-        find_holders(begin, end);
-        for (std::size_t i = begin; i < end; ++i) out[i - begin] = texel(i, holders_[i - begin]);
+    void make(std::size_t begin, Switch push, std::span<Texel> out) {
+        find_holders(begin, begin + out.size());
+        reach_.resize(out.size());
+        for (std::size_t i = 0; i < out.size(); ++i) out[i] = texel(begin + i, holders_[i], reach_[i]);
+        if (push == Switch::on) push_out(tracer_, reach_, out);
     }
 
   private:
     void find_holders(std::size_t begin, std::size_t end);
-    [[nodiscard]] Texel texel(std::size_t i, const Holders& holders) const;
-    [[nodiscard]] Vec3 lifted(std::size_t t, PagePoint p) const;
+    [[nodiscard]] Texel texel(std::size_t i, const Holders& holders, TexelReach& reach) const;
+    void add_position(std::size_t t, PagePoint p, Texel& texel, TexelReach& reach) const;
 
     const Atlas& atlas_;
     const TexelMap& map_;
     const PathTracer& tracer_;
     std::array<std::uint32_t, k_tile * k_tile> place_;  ///< in holders_ of each of the tile's texels
     std::vector<Holders> holders_;
+    std::vector<TexelReach> reach_;
 };
 
 void TileTexels::find_holders(std::size_t begin, std::size_t end) {
@@ -78,53 +70,54 @@ void TileTexels::find_holders(std::size_t begin, std::size_t end) {
     }
 }
 
-Vec3 TileTexels::lifted(std::size_t t, PagePoint p) const {
+void TileTexels::add_position(std::size_t t, PagePoint p, Texel& texel, TexelReach& reach) const {
     const World& world = atlas_.world();
     const Vec3 on_surface = position_at(world, t, PageTriangle(atlas_.texel_triangle(t)).weights(p));
-    return on_surface + world.face_normal(t) * tracer_.lift(on_surface);
+    const Vec3 face = world.face_normal(t), normal = dot(face, face) > 0 ? face : texel.face_normal;
+    texel.positions[texel.position_count] = on_surface + normal * tracer_.lift(on_surface);
+    reach.normals[texel.position_count] = normal;
+    ++texel.position_count;
 }
 
-Texel TileTexels::texel(std::size_t i, const Holders& holders) const {
+Texel TileTexels::texel(std::size_t i, const Holders& holders, TexelReach& reach) const {
     const World& world = atlas_.world();
     const std::uint32_t t = map_.triangle[i];
     const int x = static_cast<int>(map_.texels[i].x), y = static_cast<int>(map_.texels[i].y);
-    const PageTriangle triangle(atlas_.texel_triangle(t));
 
     // What it is: the surface at its centre, or at the covered point nearest to that.
-    const PagePoint centre{x + 0.5, y + 0.5};
-    const bool holds_centre = triangle.contains(centre);
-    const Polygon covered = holds_centre ? Polygon{} : triangle.part_in(x, y);
-    assert(holds_centre || covered.size > 0);
-    const auto weights = triangle.weights(holds_centre ? centre : covered.nearest(centre));
+    const auto [position, normal] = surface_of(atlas_, map_, i);
     Texel result;
-    result.position = position_at(world, t, weights);
-    result.normal = normal_at(world, t, weights);
+    result.position = position;
+    result.normal = normal;
     result.face_normal = world.face_normal(t);
     if (dot(result.face_normal, result.face_normal) == 0) result.face_normal = result.normal;
     result.object = world.object[t];
     result.chart = atlas_.chart_of_triangle()[t];
 
     // Where its samples start: the points of the pattern that its chart covers, or else the middle of what is covered.
+    reach.width = texel_width(atlas_, t);
     for (std::size_t k = 0; k < k_most_positions; ++k)
-        if (holders[k] != k_nobody)
-            result.positions[result.position_count++] = lifted(holders[k], {x + k_pattern[k].x, y + k_pattern[k].y});
-    if (result.position_count == 0)
-        result.positions[result.position_count++] = lifted(t, holds_centre ? centre : covered.centroid());
+        if (holders[k] != k_nobody) add_position(holders[k], {x + k_pattern[k].x, y + k_pattern[k].y}, result, reach);
+    if (result.position_count == 0) {
+        const PageTriangle triangle(atlas_.texel_triangle(t));
+        const PagePoint centre{x + 0.5, y + 0.5};
+        add_position(t, triangle.contains(centre) ? centre : triangle.part_in(x, y).centroid(), result, reach);
+    }
     return result;
 }
 
 }  // namespace
 
 void make_texels(const Atlas& atlas, const TexelMap& map, std::size_t begin, std::size_t end, const PathTracer& tracer,
-                 Switch /*push_out*/, std::vector<Texel>& out) {
+                 Switch push_out, std::vector<Texel>& out) {
     assert(begin <= end && end <= map.texels.size());
     out.resize(end - begin);
     TileTexels tile(atlas, map, tracer);
     for (std::size_t i = begin; i < end;) {
         const auto next = std::upper_bound(map.first_of_tile.begin(), map.first_of_tile.end(), i);
-        const std::size_t tile_end = std::min<std::size_t>(*next, end);
-        tile.make(i, tile_end, out.data() + (i - begin));
-        i = tile_end;
+        const std::size_t count = std::min<std::size_t>(*next, end) - i;
+        tile.make(i, push_out, std::span(out).subspan(i - begin, count));
+        i += count;
     }
 }
 

@@ -6,8 +6,6 @@
 
 #include <charconv>
 #include <chrono>
-#include <fstream>
-#include <iterator>
 #include <thread>
 
 #include "lobelia/sky.h"
@@ -124,15 +122,16 @@ void complain(const std::string& line) {
     std::fflush(stderr);
 }
 
-Progress progress_bar() {
+LabelledProgress labelled_progress_bar() {
     if (isatty(STDERR_FILENO) == 0) return {};
     const auto start = std::chrono::steady_clock::now();
-    return [start, shown = false](double done) mutable {
+    return [start, shown = false](double done, std::string_view text) mutable {
         const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         if (seconds < 1 || (done >= 1 && !shown)) return;
         constexpr int width = 40;
         const int filled = static_cast<int>(done * width);
-        std::string line = fmt::format("\r[{:=<{}}{: <{}}] {:3.0f} %", "", filled, "", width - filled, 100 * done);
+        std::string line =
+            fmt::format("\r[{:=<{}}{: <{}}] {:3.0f} % {}\033[K", "", filled, "", width - filled, 100 * done, text);
         if (done >= 1 - 1e-9) line += "\r\033[K";
         std::fputs(line.c_str(), stderr);
         std::fflush(stderr);
@@ -140,17 +139,10 @@ Progress progress_bar() {
     };
 }
 
-Result<std::string> read_text(const std::string& path, std::uintmax_t most_mebibytes) {
-    std::error_code code;
-    if (!std::filesystem::exists(path, code)) return Error{path + ": no such file"};
-    if (!std::filesystem::is_regular_file(path, code)) return Error{path + ": not a regular file"};
-    if (std::filesystem::file_size(path, code) > most_mebibytes << 20)
-        return Error{fmt::format("{}: larger than {} MiB", path, most_mebibytes)};
-    std::ifstream file(path, std::ios::binary);
-    if (!file) return Error{path + ": cannot be opened"};
-    std::string text{std::istreambuf_iterator<char>(file), {}};
-    if (file.bad()) return Error{path + ": cannot be read"};
-    return text;
+Progress progress_bar() {
+    auto bar = labelled_progress_bar();
+    if (!bar) return {};
+    return [bar](double done) { bar(done, ""); };
 }
 
 }  // namespace lobelia::cli

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "io/read_file.h"
 #include "io/read_image.h"
 #include "io/write_file.h"
 #include "report/comparison.h"
@@ -58,10 +59,10 @@ void add_sampling_options(CLI::App& command, SamplingOptions& options);
 /// A line on stderr; where nobody listens any more, it is lost and nothing else changes.
 void complain(const std::string& line);
 
-/// A bar on stderr for work that lasts over a second, only where stderr is a terminal.
+/// A bar on stderr for work that lasts over a second, only where stderr is a terminal; else null.
 [[nodiscard]] Progress progress_bar();
-
-/// The whole of a text file of at most `most_mebibytes`.
-[[nodiscard]] Result<std::string> read_text(const std::string& path, std::uintmax_t most_mebibytes = 64);
+/// The same with a text behind the bar.
+using LabelledProgress = std::function<void(double, std::string_view)>;
+[[nodiscard]] LabelledProgress labelled_progress_bar();
 
 }  // namespace lobelia::cli

@@ -18,7 +18,7 @@ struct Options {
     EnvironmentOptions environment;
     SamplingOptions sampling;
     std::string out = "lobelia-report";
-    std::vector<std::string> codecs, bases, encoders, evaluators;
+    std::vector<std::string> codecs, bases, encoders, evaluators, storages;
     std::string recipe;
     bool json_only = false;
     bool no_convergence = false;
@@ -72,6 +72,24 @@ Result<std::vector<CodecName>> chosen_codecs(const Options& options) {
     return chosen;
 }
 
+/// The storages that the options name, each once; "all" is the whole list.
+Result<std::vector<const Storage*>> chosen_storages(const Options& options) {
+    std::vector<const Storage*> chosen;
+    const auto add_once = [&](const Storage* storage) {
+        if (std::find(chosen.begin(), chosen.end(), storage) == chosen.end()) chosen.push_back(storage);
+    };
+    for (const auto& name : options.storages) {
+        if (name == "all") {
+            for (const Storage& storage : storages()) add_once(&storage);
+            continue;
+        }
+        const auto storage = find_storage(name);
+        if (!storage) return storage.error();
+        add_once(*storage);
+    }
+    return chosen;
+}
+
 Result<Comparison> run(const Options& options, const Image& environment) {
     ComparisonOptions comparison = comparison_options(options.sampling);
     comparison.pictures = !options.json_only;
@@ -81,6 +99,9 @@ Result<Comparison> run(const Options& options, const Image& environment) {
                           progress_bar());
     auto codecs = chosen_codecs(options);
     if (!codecs) return codecs.error();
+    auto storages = chosen_storages(options);
+    if (!storages) return storages.error();
+    comparison.storages = *std::move(storages);
     return compare(environment, *codecs, comparison, progress_bar());
 }
 
@@ -113,6 +134,7 @@ Status compare_verb(const Options& options) {
     // Names first, then files: what is cheap to refuse is refused first.
     if (options.recipe.empty())
         if (const auto codecs = chosen_codecs(options); !codecs) return codecs.error();
+    if (const auto storages = chosen_storages(options); !storages) return storages.error();
     auto environment = load(options.environment);
     if (!environment) return environment.error();
     const std::filesystem::path folder = options.out;
@@ -147,12 +169,15 @@ Verb add_compare(CLI::App& app) {
     CLI::Option* encoder = command->add_option("--encoder", options->encoders, "Only these encoders");
     CLI::Option* evaluator = command->add_option("--evaluator", options->evaluators, "Only these evaluators");
     for (CLI::Option* filter : {basis, encoder, evaluator}) codec->excludes(filter);
+    CLI::Option* storage = command->add_option("--storage", options->storages,
+                                               "Also store the coefficients so and judge what is read back; all: in "
+                                               "every storage that suits, see lobelia list --axes");
     command
         ->add_option(
             "--recipe", options->recipe,
             "Reproduce a published table instead: published (2018, first version) or updated (2018, corrected)")
         ->check(CLI::IsMember({"published", "updated"}))
-        ->excludes(codec, basis, encoder, evaluator, command->get_option("--sequence"),
+        ->excludes(codec, basis, encoder, evaluator, storage, command->get_option("--sequence"),
                    command->get_option("--samples"), command->get_option("--seed"));
     command->add_flag("--json-only", options->json_only, "Write report.json alone: no page, pictures or convergence");
     command->add_flag("--no-convergence", options->no_convergence, "Leave the convergence plots out");

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "cli/common.h"
+#include "cli/eval_bake.h"
 #include "cli/verbs.h"
 #include "io/write_file.h"
 #include "io/write_image.h"
@@ -125,15 +126,24 @@ Status write_values(const OutputOptions& options, const Target& target, const Co
 
 struct EvalOptions {
     std::string coefficients;
+    std::string evaluator;
+    bool irradiance = false;
     OutputOptions output;
 };
 
 Status eval_verb(const EvalOptions& options) {
+    if (is_bake(options.coefficients)) {
+        if (!options.irradiance || !options.output.normals.empty() || !options.output.lat_long.empty())
+            return Error{options.coefficients + ": of a bake, --irradiance at each texel's normal is what can be read"};
+        return eval_bake({options.coefficients, options.evaluator, options.output.out});
+    }
     const auto text = read_text(options.coefficients, 1);
     if (!text) return text.error();
     const auto file = coefficients_from_json(*text, options.coefficients);
     if (!file) return file.error();
-    const auto codec = make_codec(file->codec.str());
+    CodecName name = file->codec;
+    if (!options.evaluator.empty()) name.evaluator = options.evaluator;
+    const auto codec = make_codec(name.str());
     if (!codec) return codec.error();
     const auto target = target_of(options.output, codec->basis().domain());
     if (!target) return target.error();
@@ -184,8 +194,18 @@ Verb add_eval(CLI::App& app) {
     auto options = std::make_shared<EvalOptions>();
     CLI::App* command =
         app.add_subcommand("eval", "Read coefficients as irradiance E [W/m^2] (not E / pi) or radiance [W/(m^2 sr)]");
-    command->add_option("COEFFICIENTS", options->coefficients, "A file that lobelia encode wrote")->required();
+    command
+        ->add_option("COEFFICIENTS", options->coefficients,
+                     "A file that lobelia encode wrote, or the folder of a bake: then --irradiance -o FOLDER")
+        ->required();
     add_output_options(*command, options->output);
+    command->add_option("--evaluator", options->evaluator,
+                        "Another way to read the same basis, see lobelia list --axes");
+    command
+        ->add_flag("--irradiance", options->irradiance,
+                   "What is read unless --radiance is given; of a bake, at each texel's normal: an .exr with R, G, B "
+                   "and validity for each page")
+        ->excludes("--radiance");
     return {command, [options] { return eval_verb(*options); }};
 }
 

@@ -3,10 +3,20 @@
 
 #include "cli/verbs.h"
 #include "lobelia/codec.h"
+#include "lobelia/pack.h"
+#include "lobelia/pack/layout_text.h"
 #include "report/bases_page.h"
 
 namespace lobelia::cli {
 namespace {
+
+enum class Output { text, json };
+
+struct Options {
+    bool axes = false, markdown = false;
+    std::string storages;
+    bool json = false;
+};
 
 void print_axes() {
     fmt::print("bases (one RGB coefficient per function)\n");
@@ -27,23 +37,69 @@ void print_axes() {
             fmt::print("  {:<20} {}: error at most {}\n", evaluator, accuracy.range, accuracy.error);
         }
     }
+    fmt::print("storages\n");
+    for (const Storage& storage : storages()) fmt::print("  {:<20} {}\n", storage.name, storage.description);
     fmt::print("A codec is one of each, basis/encoder/evaluator; lobelia list prints all {} of the sensible product.\n",
                all_codecs().size());
 }
 
-struct Options {
-    bool axes = false, markdown = false;
-};
+/// The traits of a codec's coefficients; of a basis, those that its non-negative encoders give, where it has any.
+Result<CoefficientTraits> traits_of(const std::string& name) {
+    if (name.find('/') != std::string::npos) {
+        const auto codec = make_codec(name);
+        if (!codec) return codec.error();
+        return coefficient_traits(*codec->encoder());
+    }
+    const auto basis = make_basis(name);
+    if (!basis) return basis.error();
+    CoefficientTraits traits;
+    for (const auto& encoder : encoder_names(**basis)) {
+        traits = coefficient_traits(*make_encoder(encoder, *basis).value());
+        if (traits.non_negative) break;
+    }
+    return traits;
+}
+
+void print_layout(const Storage& storage, const TextureLayout& layout) {
+    fmt::print("{:<14} {} bytes for a texel: {}\n", storage.name, bytes_per_texel(layout), storage.description);
+    for (const auto& texture : layout.textures) {
+        std::string channels;
+        for (const StoredChannel& channel : texture.channels)
+            channels += (channels.empty() ? "" : ", ") + channel_text(channel);
+        fmt::print("  {:<10} {:<14}{}{}\n", texture.name, info(texture.format).name, channels,
+                   texture.subsampling == 1 ? "" : ", for 2 x 2 texels");
+    }
+}
+
+Status print_layouts(const std::string& name, Output output) {
+    const auto traits = traits_of(name);
+    if (!traits) return traits.error();
+    std::string json;
+    for (const Storage& storage : storages()) {
+        if (!suits(storage, *traits)) continue;
+        const TextureLayout layout = storage.layout(*traits);
+        if (output == Output::text) print_layout(storage, layout);
+        json += fmt::format("{}\n \"{}\": {}", json.empty() ? "" : ",", storage.name, layout_json(layout));
+    }
+    if (output == Output::json) fmt::print("{{{}\n}}\n", json);
+    return Done{};
+}
 
 }  // namespace
 
 Verb add_list(CLI::App& app) {
     CLI::App* command = app.add_subcommand("list", "Print the codecs, or what they are made of");
     auto options = std::make_shared<Options>();
-    CLI::Option* axes =
-        command->add_flag("--axes", options->axes, "The bases, encoders and evaluators with what they are, instead");
+    CLI::Option* axes = command->add_flag(
+        "--axes", options->axes, "The bases, encoders, evaluators and storages with what they are, instead");
     command->add_flag("--markdown", options->markdown, "The page of bases, docs/bases.md, instead")->excludes(axes);
+    auto* layouts = command->add_option("--storages", options->storages,
+                                        "The textures in which each storage that suits keeps the coefficients of this "
+                                        "basis or codec, instead");
+    command->add_flag("--json", options->json, "These as JSON")->needs(layouts);
     return {command, [options]() -> Status {
+                if (!options->storages.empty())
+                    return print_layouts(options->storages, options->json ? Output::json : Output::text);
                 if (options->axes)
                     print_axes();
                 else if (options->markdown)

@@ -21,9 +21,12 @@ and measures how wrong each choice is.
   lobelia compare room.hdr --out report    the same on an environment of yours
   lobelia encode room.hdr --codec sh2/least-squares/convolution -o room.json
   lobelia eval room.json --latlong 64x32 -o irradiance.exr
+  lobelia convert room.json --to unity -o unity.json
   lobelia reference room.hdr --latlong 64x32 -o exact.exr
   lobelia list --axes                      bases, encoders and evaluators
   lobelia study irradiance                 how good each irradiance formula is
+  lobelia scene cornell -o cornell.glb     a scene to bake
+  lobelia unwrap in.glb -o out.glb         lightmap UVs for a scene of yours
 
 lobelia -h tells more, lobelia VERB -h all of a verb's options.
 )";
@@ -58,9 +61,8 @@ int main(int argc, char** argv) {
     app.require_subcommand(0, 1);
     app.get_formatter()->column_width(36);
     app.footer("lobelia VERB -h tells a verb's options; lobelia alone shows examples.");
-    const std::vector<lobelia::cli::Verb> verbs = {lobelia::cli::add_compare(app), lobelia::cli::add_encode(app),
-                                                   lobelia::cli::add_eval(app),    lobelia::cli::add_reference(app),
-                                                   lobelia::cli::add_list(app),    lobelia::cli::add_study(app)};
+    std::vector<lobelia::cli::Verb> verbs;
+    for (const auto& add : lobelia::cli::k_verbs) verbs.push_back(add(app));
 
     try {
         const int code = run(app, verbs, argc, argv);

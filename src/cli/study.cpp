@@ -4,7 +4,9 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "baker/study_bake.h"
 #include "cli/common.h"
+#include "cli/scene_input.h"
 #include "cli/verbs.h"
 #include "io/write_file.h"
 #include "report/study_encoders.h"
@@ -30,6 +32,9 @@ struct Options {
     EnvironmentOptions environment;
     std::vector<std::string> bases = first_bases();
     EncoderStudyOptions encoders;
+    SceneOptions scene;
+    BakeStudyOptions bake;
+    int bounces = 8;
 };
 
 /// Prints the tables and writes NAME.html, NAME.json and NAME.md.
@@ -42,6 +47,38 @@ Status write_study(const Study& study, const std::filesystem::path& folder) {
     if (auto status = write_into_folder(folder, files); !status) return status;
     fmt::print("{}\n{}\n", markdown, file(".html").string());
     return Done{};
+}
+
+/// Every codec at the texels of a scene.
+Status run_bake_study(const Options& options) {
+    if (auto status = check_folder(options.out); !status) return status;
+    const auto loaded = load_scene(options.scene);
+    if (!loaded) return loaded.error();
+    BakeOptions bake;
+    bake.codec.clear();
+    bake.paths.bounces = options.bounces;
+    const std::atomic<bool> never = false;
+    const auto study = study_bake(loaded->scene, bake, options.bake, never, progress_bar());
+    if (!study) return study.error();
+    return write_study(*study, options.out);
+}
+
+void add_bake_options(CLI::App& command, Options& options) {
+    add_scene_options(command, options.scene);
+    command.add_option("--out", options.out, "Folder of the study")->capture_default_str();
+    command.add_option("--basis", options.bake.bases, "Only these bases (default: all of the list)");
+    command.add_option("--texels", options.bake.texels, "How many, spread evenly, 1 to 100000")
+        ->check(CLI::Range(std::size_t{1}, std::size_t{100'000}))
+        ->capture_default_str();
+    command.add_option("--samples", options.bake.samples, "For each codec at each texel, 64 to 65536")
+        ->check(CLI::Range(64u, 65536u))
+        ->capture_default_str();
+    command.add_option("--reference-samples", options.bake.reference_samples, "For the reference, 64 to 1048576")
+        ->check(CLI::Range(64u, 1'048'576u))
+        ->capture_default_str();
+    command.add_option("--bounces", options.bounces, "Surfaces that light may meet, 0 to 64")
+        ->check(CLI::Range(0, 64))
+        ->capture_default_str();
 }
 
 }  // namespace
@@ -71,7 +108,11 @@ Verb add_study(CLI::App& app) {
         ->check(number_in(0, 100))
         ->capture_default_str();
 
+    CLI::App* bake = command->add_subcommand("bake", "Every codec's irradiance at the texels of a scene");
+    add_bake_options(*bake, *options);
+
     return {command, [=]() -> Status {
+                if (bake->parsed()) return run_bake_study(*options);
                 for (const auto& [study, entry] : formulae)
                     if (study->parsed()) return write_study(entry->run(), options->out);
                 if (auto status = check_folder(options->out); !status) return status;

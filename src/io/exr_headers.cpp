@@ -16,7 +16,7 @@ namespace lobelia::io {
 
 namespace {
 
-constexpr std::size_t k_most_parts = 256, k_most_channels = 256, k_most_name = 255;
+constexpr std::size_t k_most_parts = 256, k_most_name = 255;
 constexpr std::uint32_t k_tiled = 0x200, k_multi_part = 0x1000;
 
 // Attribute types of one size. OpenEXR reads these without looking at the size that the file states, so a wrong one
@@ -55,7 +55,8 @@ struct Refusal : std::runtime_error {
 
 class Walker {
   public:
-    Walker(ExrInput& in, std::string_view name, const ReadOptions& options) : in_(in), name_(name), options_(options) {}
+    Walker(ExrInput& in, std::string_view name, const ReadOptions& options, std::size_t most_channels)
+        : in_(in), name_(name), options_(options), most_channels_(most_channels) {}
 
     void file() {
         if (u32() != 20000630) refuse("no OpenEXR file");
@@ -163,7 +164,7 @@ class Walker {
     void channels(std::uint64_t end) {
         std::size_t count = 0;
         while (!text().empty()) {
-            if (++count > k_most_channels) refuse(fmt::format("more than {} channels", k_most_channels));
+            if (++count > most_channels_) refuse(fmt::format("more than {} channels", most_channels_));
             bytes<8>();  // pixel type, linearity, padding
             if (i32() < 1 || i32() < 1) refuse("a channel with a sampling rate below 1");
         }
@@ -188,15 +189,16 @@ class Walker {
     ExrInput& in_;
     std::string_view name_;
     const ReadOptions& options_;
+    std::size_t most_channels_;
     bool tiled_ = false;
     std::uint64_t place_ = 0;
 };
 
 }  // namespace
 
-Status check_exr_headers(ExrInput& in, std::string_view name, const ReadOptions& options) {
+Status check_exr_headers(ExrInput& in, std::string_view name, const ReadOptions& options, std::size_t most_channels) {
     try {
-        Walker(in, name, options).file();
+        Walker(in, name, options, most_channels).file();
         in.seekg(0);
         return Done{};
     } catch (const std::length_error& error) {

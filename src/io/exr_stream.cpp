@@ -1,4 +1,4 @@
-// OpenEXR's streams over a file, over bytes in memory and into a string, with plain bounds checks.
+// OpenEXR's streams over a file, over bytes in memory, into a string and into a staged file, with plain bounds checks.
 #include "io/exr_stream.h"
 
 #include <algorithm>
@@ -45,6 +45,22 @@ void MemoryOutput::write(const char* source, int count) {
     if (begin + bytes > bytes_.size()) bytes_.resize(begin + bytes);
     std::copy_n(source, bytes, bytes_.begin() + static_cast<std::ptrdiff_t>(begin));
     position_ += static_cast<StreamPosition>(count);
+}
+
+void StagedOutput::require(Status status) {
+    if (status_ && !status) status_ = std::move(status);
+    if (!status_) throw std::runtime_error(status_.error().message);
+}
+
+void StagedOutput::write(const char* source, int count) {
+    require(Done{});
+    require(file_.write(std::as_bytes(std::span(source, static_cast<std::size_t>(count)))));
+    position_ += static_cast<StreamPosition>(count);
+}
+
+void StagedOutput::seekp(StreamPosition position) {
+    require(file_.seek(position));
+    position_ = position;
 }
 
 }  // namespace lobelia::io

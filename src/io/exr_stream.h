@@ -1,4 +1,4 @@
-// OpenEXR's streams over a file, over bytes in memory and into a string, with plain bounds checks.
+// OpenEXR's streams over a file, over bytes in memory, into a string and into a staged file, with plain bounds checks.
 #pragma once
 
 #include <OpenEXR/ImfIO.h>
@@ -10,6 +10,8 @@
 #include <span>
 #include <string>
 #include <utility>
+
+#include "io/staged_file.h"
 
 namespace lobelia::io {
 
@@ -63,6 +65,23 @@ class MemoryOutput final : public Imf::OStream {
 
   private:
     std::string bytes_;
+    StreamPosition position_ = 0;
+};
+
+/// Into a staged file; once that fails, `status` says why and nothing more is written.
+class StagedOutput final : public Imf::OStream {
+  public:
+    explicit StagedOutput(StagedFile& file) : OStream("OpenEXR file"), file_(file) {}
+    void write(const char* source, int count) override;
+    StreamPosition tellp() override { return position_; }
+    void seekp(StreamPosition position) override;
+    [[nodiscard]] const Status& status() const { return status_; }
+
+  private:
+    void require(Status status);
+
+    StagedFile& file_;
+    Status status_ = Done{};
     StreamPosition position_ = 0;
 };
 

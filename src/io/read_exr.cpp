@@ -6,11 +6,9 @@
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfInputPart.h>
 #include <OpenEXR/ImfMultiPartInputFile.h>
-#include <OpenEXR/ImfPartType.h>
 #include <OpenEXR/ImfRgbaFile.h>
 #include <OpenEXR/ImfStandardAttributes.h>
 #include <OpenEXR/ImfThreading.h>
-#include <OpenEXR/ImfTileDescription.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,6 +17,7 @@
 #include <optional>
 
 #include "io/exr_headers.h"
+#include "io/exr_parts.h"
 #include "io/image_checks.h"
 
 namespace lobelia::io {
@@ -32,19 +31,6 @@ struct Choice {
     int part = 0;
     std::string prefix;
 };
-
-struct Size {
-    std::int64_t width = 0, height = 0;
-};
-
-Size size_of(const Imf::Header& header) {
-    const auto& window = header.dataWindow();
-    return {std::int64_t{window.max.x} - window.min.x + 1, std::int64_t{window.max.y} - window.min.y + 1};
-}
-
-bool is_deep(const Imf::Header& header) {
-    return header.hasType() && (header.type() == Imf::DEEPSCANLINE || header.type() == Imf::DEEPTILE);
-}
 
 bool has_rgb(const Imf::ChannelList& channels, const std::string& prefix) {
     return channels.findChannel(prefix + "R") && channels.findChannel(prefix + "G") &&
@@ -84,64 +70,22 @@ Result<Choice> choose(const Imf::MultiPartInputFile& file, std::string_view name
     return Error{fmt::format("{}: no part of the OpenEXR file has the channels R, G, B or Y", name)};
 }
 
-std::int64_t lines_per_chunk(Imf::Compression compression) {
-    switch (compression) {
-        case Imf::NO_COMPRESSION:
-        case Imf::RLE_COMPRESSION:
-        case Imf::ZIPS_COMPRESSION:
-            return 1;
-        case Imf::ZIP_COMPRESSION:
-        case Imf::PXR24_COMPRESSION:
-            return 16;
-        case Imf::DWAB_COMPRESSION:
-            return 256;
-        default:
-            return 32;
-    }
-}
-
 /// Whether a compression may turn 0 into a small negative number.
 bool crosses_zero(Imf::Compression compression) {
     return compression == Imf::B44_COMPRESSION || compression == Imf::B44A_COMPRESSION ||
            compression == Imf::DWAA_COMPRESSION || compression == Imf::DWAB_COMPRESSION;
 }
 
-/// How many samples OpenEXR buffers at once for a part.
-std::int64_t buffered_samples(const Imf::Header& header) {
-    std::int64_t channels = 0;
-    for (auto c = header.channels().begin(); c != header.channels().end(); ++c) ++channels;
-    const std::int64_t width = size_of(header).width;
-    if (!header.hasTileDescription()) return width * lines_per_chunk(header.compression()) * channels;
-    // Tiles are buffered by rows, whole at the right edge.
-    const Imf::TileDescription& tile = header.tileDescription();
-    return (width + tile.xSize) * tile.ySize * channels;
-}
-
-Status check_part(const Imf::Header& header, const Choice& choice, std::string_view name, std::uint64_t file_bytes,
-                  const ReadOptions& options) {
-    const Size size = size_of(header);
-    if (const Status status = check_size(name, size.width, size.height, options); !status) return status;
-    constexpr std::size_t k_most_buffered = std::size_t{1} << 28, k_always = std::size_t{1} << 20;
-    const auto most_buffered = static_cast<std::int64_t>(
-        std::min(k_most_buffered, k_always + 4 * std::min(options.most_pixels, k_most_buffered)));
-    if (buffered_samples(header) > most_buffered)
-        return Error{fmt::format("{}: one chunk of the image would take more than {} samples", name, most_buffered)};
-
-    // DWA compresses best: 64 equal samples are two symbols of 16 bits, deflated at most 1032 : 1.
-    constexpr std::uint64_t k_most_samples_per_byte = 64 * 1032 / 4;
-    const std::uint64_t samples =
-        static_cast<std::uint64_t>(size.width * size.height) * (choice.kind == Choice::Kind::rgb ? 3 : 1);
-    if (samples / k_most_samples_per_byte > file_bytes)
-        return Error{fmt::format("{}: {} bytes cannot hold {} x {} pixels", name, file_bytes, size.width, size.height)};
+Status check_choice(const Imf::Header& header, const Choice& choice, std::string_view name, std::uint64_t file_bytes,
+                    const ReadOptions& options) {
+    const std::uint64_t channels = choice.kind == Choice::Kind::rgb ? 3 : 1;
+    if (const Status status = check_part(header, name, file_bytes, channels, options); !status) return status;
 
     // Only chroma may be stored at a lower rate.
     const bool chroma = choice.kind == Choice::Kind::luminance_chroma;
     for (const char* channel : {"R", "G", "B", "Y", "RY", "BY"}) {
-        const Imf::Channel* found = header.channels().findChannel(choice.prefix + channel);
         const int rate = chroma && (channel[1] == 'Y') ? 2 : 1;
-        if (found && (found->xSampling != rate || found->ySampling != rate))
-            return Error{fmt::format("{}: channel {}{} is sampled at 1/{} x 1/{}; 1/{} was expected", name,
-                                     choice.prefix, channel, found->xSampling, found->ySampling, rate)};
+        if (const Status status = check_sampling(header, choice.prefix + channel, name, rate); !status) return status;
     }
     if (chroma && choice.part != 0)
         return Error{fmt::format("{}: luminance and chroma are read from the first part only, not from part {}", name,
@@ -208,10 +152,10 @@ Result<LoadedImage> decode(ExrInput& in, std::string_view name, const ReadOption
     const Result<Choice> choice = choose(file, name);
     if (!choice) return choice.error();
     const Imf::Header& header = file.header(choice->part);
-    if (const Status status = check_part(header, *choice, name, in.size(), options); !status) return status.error();
+    if (const Status status = check_choice(header, *choice, name, in.size(), options); !status) return status.error();
 
     // Read them.
-    const Size size = size_of(header);
+    const ExrSize size = size_of(header);
     LoadedImage loaded{Image(static_cast<std::size_t>(size.width), static_cast<std::size_t>(size.height)),
                        warnings_about(file, *choice),
                        {}};

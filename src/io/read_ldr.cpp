@@ -1,4 +1,4 @@
-// 8- and 16-bit pictures through stb_image, decoded from sRGB to linear.
+// 8- and 16-bit pictures through stb_image: decoded from sRGB to linear, or as they are for textures.
 #define STB_IMAGE_IMPLEMENTATION
 #define STB_IMAGE_STATIC
 #define STBI_NO_STDIO
@@ -19,11 +19,13 @@
 
 #include <fmt/format.h>
 
+#include <cstring>
 #include <limits>
 #include <memory>
 
 #include "io/image_checks.h"
 #include "io/jpeg_check.h"
+#include "io/read_picture.h"
 #include "lobelia/colour.h"
 
 namespace lobelia {
@@ -41,7 +43,7 @@ struct StbBytes {
 };
 
 template <class Sample>
-using Samples3 = std::unique_ptr<Sample, void (*)(void*)>;
+using StbSamples = std::unique_ptr<Sample, void (*)(void*)>;
 
 template <class Sample>
 Image decoded(const Sample* samples, PictureInfo info) {
@@ -69,33 +71,26 @@ Status check_picture(std::span<const std::byte> bytes, std::string_view name, Pi
     return Done{};
 }
 
-Result<Image> decode(StbBytes source, std::string_view name, PictureInfo info) {
+Result<Image> decode(StbBytes source, std::string_view name) {
+    PictureInfo info;
     int channels = 0;
     if (stbi_is_16_bit_from_memory(source.data, source.size)) {
-        const Samples3<stbi_us> samples(
+        const StbSamples<stbi_us> samples(
             stbi_load_16_from_memory(source.data, source.size, &info.width, &info.height, &channels, 3),
             stbi_image_free);
         if (samples) return decoded(samples.get(), info);
     } else {
-        const Samples3<stbi_uc> samples(
+        const StbSamples<stbi_uc> samples(
             stbi_load_from_memory(source.data, source.size, &info.width, &info.height, &channels, 3), stbi_image_free);
         if (samples) return decoded(samples.get(), info);
     }
     return Error{fmt::format("{}: a damaged picture: {}", name, stbi_failure_reason())};
 }
 
-}  // namespace
-
-Result<LoadedImage> read_ldr(std::span<const std::byte> bytes, std::string_view name, const ReadOptions& options) {
-    if (!options.ldr)
-        return Error{
-            fmt::format("{}: a picture without high dynamic range, in which suns and lamps are cut off at white; "
-                        "pass --ldr to use it all the same",
-                        name)};
+/// Checks the segments and the size before anything is allocated.
+Result<StbBytes> checked(std::span<const std::byte> bytes, std::string_view name, const ReadOptions& options) {
     if (bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
         return Error{fmt::format("{}: the picture file is larger than 2 GiB", name)};
-
-    // Check the segments and the size, then decode.
     const bool is_jpeg = !bytes.empty() && bytes[0] == std::byte{0xff};
     if (const auto problem = is_jpeg ? io::jpeg_problem(bytes) : std::nullopt)
         return Error{fmt::format("{}: a damaged picture: {}", name, *problem)};
@@ -105,7 +100,48 @@ Result<LoadedImage> read_ldr(std::span<const std::byte> bytes, std::string_view 
     if (!stbi_info_from_memory(source.data, source.size, &info.width, &info.height, &channels))
         return Error{fmt::format("{}: a damaged picture: {}", name, stbi_failure_reason())};
     if (const Status status = check_picture(bytes, name, info, options); !status) return status.error();
-    Result<Image> image = decode(source, name, info);
+    return source;
+}
+
+/// What bytes that are neither PNG nor JPEG seem to be.
+std::string_view other_format(std::string_view text) {
+    if (text.empty()) return "empty";
+    if (text.starts_with("\xabKTX ")) return "a KTX file, which is not read as a texture";
+    if (text.starts_with("RIFF") && text.find("WEBP") == 8) return "a WebP picture, which is not read";
+    if (text.starts_with("DDS ")) return "a DDS file, which is not read";
+    return "neither PNG nor JPEG";
+}
+
+}  // namespace
+
+Result<PictureRgba8> read_picture_rgba8(std::span<const std::byte> bytes, std::string_view name,
+                                        std::size_t most_pixels) {
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    if (!text.starts_with("\x89PNG") && !text.starts_with("\xff\xd8\xff"))
+        return Error{fmt::format("{}: {}", name, other_format(text))};
+    ReadOptions options;
+    options.most_pixels = most_pixels;
+    const Result<StbBytes> source = checked(bytes, name, options);
+    if (!source) return source.error();
+    int width = 0, height = 0, channels = 0;
+    const StbSamples<stbi_uc> samples(stbi_load_from_memory(source->data, source->size, &width, &height, &channels, 4),
+                                      stbi_image_free);
+    if (!samples) return Error{fmt::format("{}: a damaged picture: {}", name, stbi_failure_reason())};
+    PictureRgba8 picture{static_cast<std::size_t>(width), static_cast<std::size_t>(height), {}};
+    picture.texels.resize(picture.width * picture.height);
+    std::memcpy(picture.texels.data(), samples.get(), 4 * picture.texels.size());
+    return picture;
+}
+
+Result<LoadedImage> read_ldr(std::span<const std::byte> bytes, std::string_view name, const ReadOptions& options) {
+    if (!options.ldr)
+        return Error{
+            fmt::format("{}: a picture without high dynamic range, in which suns and lamps are cut off at white; "
+                        "pass --ldr to use it all the same",
+                        name)};
+    const Result<StbBytes> source = checked(bytes, name, options);
+    if (!source) return source.error();
+    Result<Image> image = decode(*source, name);
     if (!image) return image.error();
     return io::inspected({std::move(*image), {}, {}}, name, options);
 }

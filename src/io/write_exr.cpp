@@ -4,6 +4,7 @@
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfRgba.h>
+#include <OpenEXR/ImfThreading.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -41,39 +42,80 @@ Status check(std::size_t width, std::size_t height, std::span<const ExrChannel> 
     return Done{};
 }
 
-std::string encode(std::size_t width, std::size_t height, std::span<const ExrChannel> channels,
-                   const ExrOptions& options) {
-    const bool is_half = options.precision == ExrOptions::Precision::half;
-    const Imf::PixelType type = is_half ? Imf::HALF : Imf::FLOAT;
+/// Some consecutive rows of all channels as OpenEXR takes them: floats where they are, halves in a buffer.
+class Band {
+  public:
+    Band(std::size_t width, std::span<const ExrChannel> channels, const ExrOptions& options)
+        : width_(width), channels_(channels) {
+        for (const ExrChannel& channel : channels) {
+            const bool is_half = channel.precision.value_or(options.precision) == ExrOptions::Precision::half;
+            types_.push_back(is_half ? Imf::HALF : Imf::FLOAT);
+        }
+    }
+
+    [[nodiscard]] Imf::PixelType type(std::size_t channel) const { return types_[channel]; }
+
+    /// Whole chunks of the compression: as many as fit a small buffer, but one for each thread.
+    [[nodiscard]] std::size_t most_rows() const {
+        constexpr std::size_t k_most_halves = std::size_t{1} << 21, k_chunk = 16;
+        const auto halves = static_cast<std::size_t>(std::count(types_.begin(), types_.end(), Imf::HALF));
+        const auto threads = static_cast<std::size_t>(std::max(Imf::globalThreadCount(), 1));
+        return std::max(k_most_halves / std::max<std::size_t>(halves * width_, 1) / k_chunk, threads) * k_chunk;
+    }
+
+    /// Rows [first, first + rows).
+    [[nodiscard]] Imf::FrameBuffer rows(std::size_t first, std::size_t rows) {
+        const auto y = static_cast<int>(first);
+        const Imath::Box2i window({0, y}, {static_cast<int>(width_) - 1, y + static_cast<int>(rows) - 1});
+        halves_.resize(static_cast<std::size_t>(std::count(types_.begin(), types_.end(), Imf::HALF)) * width_ * rows);
+        half* next = halves_.data();
+        Imf::FrameBuffer source;
+        for (std::size_t c = 0; c < channels_.size(); ++c) {
+            const ExrChannel& channel = channels_[c];
+            const float* floats = channel.data.data() + first * width_ * channel.stride;
+            const void* data = floats;
+            std::size_t stride = channel.stride * sizeof(float);
+            if (types_[c] == Imf::HALF) {
+                data = next;
+                stride = sizeof(half);
+                for (std::size_t i = 0; i < width_ * rows; ++i) *next++ = saturated_half(floats[i * channel.stride]);
+            }
+            source.insert(channel.name, Imf::Slice::Make(types_[c], data, window, stride, stride * width_));
+        }
+        return source;
+    }
+
+  private:
+    std::size_t width_;
+    std::span<const ExrChannel> channels_;
+    std::vector<Imf::PixelType> types_;
+    std::vector<half> halves_;
+};
+
+/// Throws what OpenEXR and the stream throw.
+void encode(Imf::OStream& out, std::size_t width, std::size_t height, std::span<const ExrChannel> channels,
+            const ExrOptions& options) {
+    Band band(width, channels, options);
     Imf::Header header(static_cast<int>(width), static_cast<int>(height));
     header.compression() = Imf::ZIP_COMPRESSION;
-    Imf::FrameBuffer source;
-    std::vector<std::vector<half>> halves(is_half ? channels.size() : 0);
+    for (std::size_t c = 0; c < channels.size(); ++c)
+        header.channels().insert(channels[c].name, Imf::Channel(band.type(c)));
 
-    // Point OpenEXR at the floats, or at halves made of them.
-    for (std::size_t c = 0; c < channels.size(); ++c) {
-        const ExrChannel& channel = channels[c];
-        header.channels().insert(channel.name, Imf::Channel(type));
-        const void* data = channel.data.data();
-        std::size_t stride = channel.stride * sizeof(float);
-        if (is_half) {
-            halves[c].resize(width * height);
-            for (std::size_t i = 0; i < halves[c].size(); ++i)
-                halves[c][i] = saturated_half(channel.data[i * channel.stride]);
-            data = halves[c].data();
-            stride = sizeof(half);
-        }
-        source.insert(channel.name, Imf::Slice::Make(type, data, header.dataWindow(), stride, stride * width));
+    // The table of chunks is complete once the file object is gone.
+    Imf::OutputFile file(out, header);
+    for (std::size_t y = 0; y < height; y += band.most_rows()) {
+        const std::size_t rows = std::min(band.most_rows(), height - y);
+        file.setFrameBuffer(band.rows(y, rows));
+        file.writePixels(static_cast<int>(rows));
     }
+}
 
-    // Write; the table of chunks is complete once the file object is gone.
-    io::MemoryOutput out("OpenEXR image");
-    {
-        Imf::OutputFile file(out, header);
-        file.setFrameBuffer(source);
-        file.writePixels(static_cast<int>(height));
-    }
-    return out.take();
+/// Its three channels, which are interleaved in memory; none of an empty image.
+std::vector<ExrChannel> channels_of(const Image& image) {
+    if (image.pixels.empty()) return {};
+    const std::span<const float> floats(&image.pixels[0].r, 3 * image.pixels.size());
+    static_assert(sizeof(Rgb) == 3 * sizeof(float));
+    return {{"R", floats, 3}, {"G", floats.subspan(1), 3}, {"B", floats.subspan(2), 3}};
 }
 
 }  // namespace
@@ -82,25 +124,39 @@ Result<std::string> encode_exr(std::size_t width, std::size_t height, std::span<
                                const ExrOptions& options) {
     if (const Status status = check(width, height, channels); !status) return status.error();
     try {
-        return encode(width, height, channels, options);
+        io::MemoryOutput out("OpenEXR image");
+        encode(out, width, height, channels, options);
+        return out.take();
     } catch (const std::exception& error) {
         return Error{fmt::format("the OpenEXR image cannot be encoded: {}", error.what())};
     }
 }
 
 Result<std::string> encode_exr(const Image& image, const ExrOptions& options) {
-    if (image.pixels.empty()) return encode_exr(image.width, image.height, {}, options);
-    // The three channels are interleaved in memory.
-    const std::span<const float> floats(&image.pixels[0].r, 3 * image.pixels.size());
-    static_assert(sizeof(Rgb) == 3 * sizeof(float));
-    const std::vector<ExrChannel> channels{{"R", floats, 3}, {"G", floats.subspan(1), 3}, {"B", floats.subspan(2), 3}};
-    return encode_exr(image.width, image.height, channels, options);
+    return encode_exr(image.width, image.height, channels_of(image), options);
+}
+
+Status write_exr(StagedFile& file, const Image& image, const ExrOptions& options) {
+    return write_exr(file, image.width, image.height, channels_of(image), options);
 }
 
 Status write_exr(const std::filesystem::path& path, const Image& image, const ExrOptions& options) {
     const Result<std::string> bytes = encode_exr(image, options);
     if (!bytes) return Error{fmt::format("{}: {}", path.string(), bytes.error().message)};
     return write_file_atomically(path, *bytes);
+}
+
+Status write_exr(StagedFile& file, std::size_t width, std::size_t height, std::span<const ExrChannel> channels,
+                 const ExrOptions& options) {
+    if (const Status status = check(width, height, channels); !status) return status.error();
+    io::StagedOutput out(file);
+    try {
+        encode(out, width, height, channels, options);
+    } catch (const std::exception& error) {
+        if (out.status()) return Error{fmt::format("the OpenEXR image cannot be encoded: {}", error.what())};
+    }
+    // Where the table of chunks could not be written, OpenEXR keeps silent.
+    return out.status();
 }
 
 }  // namespace lobelia

@@ -1,29 +1,33 @@
 // Images into files: OpenEXR with named float channels, and PNG pictures for people.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "io/staged_file.h"
 #include "lobelia/image.h"
 #include "lobelia/result.h"
 
 namespace lobelia {
+
+struct ExrOptions {
+    enum class Precision { half, full };
+    /// Half holds 11 bits; finite values beyond +-65504 are stored as that.
+    Precision precision = Precision::full;
+};
 
 /// One channel of an OpenEXR file: pixel i, row by row from the top left, is data[i * stride].
 struct ExrChannel {
     std::string name;
     std::span<const float> data;
     std::size_t stride = 1;
-};
-
-struct ExrOptions {
-    enum class Precision { half, full };
-    /// Half holds 11 bits; finite values beyond +-65504 are stored as that.
-    Precision precision = Precision::full;
+    std::optional<ExrOptions::Precision> precision = std::nullopt;  ///< if not that of the options
 };
 
 /// The bytes of a scan-line OpenEXR file (ZIP). Channels have distinct names and reach all width * height pixels.
@@ -33,6 +37,10 @@ struct ExrOptions {
 [[nodiscard]] Result<std::string> encode_exr(const Image& image, const ExrOptions& options = {});
 /// The same into a file, written atomically.
 [[nodiscard]] Status write_exr(const std::filesystem::path& path, const Image& image, const ExrOptions& options = {});
+[[nodiscard]] Status write_exr(StagedFile& file, const Image& image, const ExrOptions& options = {});
+/// Any channels into a file: rows go there as they are encoded, so that no second copy of a large image is in memory.
+[[nodiscard]] Status write_exr(StagedFile& file, std::size_t width, std::size_t height,
+                               std::span<const ExrChannel> channels, const ExrOptions& options = {});
 
 /// A picture of 8-bit sRGB: red, green, blue, row by row from the top left.
 struct Image8 {
@@ -46,7 +54,10 @@ struct Image8 {
 
 /// The bytes of a PNG file.
 [[nodiscard]] Result<std::string> encode_png(const Image8& picture);
-/// The same into a file, written atomically.
+/// The same with alpha, of texels as they are, red, green, blue, alpha.
+[[nodiscard]] Result<std::string> encode_png(std::size_t width, std::size_t height,
+                                             std::span<const std::array<std::uint8_t, 4>> texels);
+/// The first into a file, written atomically.
 [[nodiscard]] Status write_png(const std::filesystem::path& path, const Image8& picture);
 
 }  // namespace lobelia

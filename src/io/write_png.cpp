@@ -15,7 +15,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 
 #include "io/image_checks.h"
 #include "io/write_file.h"
@@ -36,6 +35,28 @@ void append(void* target, void* data, int size) {
     static_cast<std::string*>(target)->append(static_cast<const char*>(data), static_cast<std::size_t>(size));
 }
 
+struct PngSource {
+    std::size_t width, height;
+    int channels;
+    std::span<const std::uint8_t> bytes;
+};
+
+Result<std::string> encode(const PngSource& source) {
+    // stb_image_write counts bytes in int.
+    constexpr std::size_t k_most_pixels = std::size_t{1} << 28;
+    const std::size_t pixels = source.width * source.height;
+    if (pixels == 0 || source.width > io::k_most_side || source.height > io::k_most_side || pixels > k_most_pixels ||
+        source.bytes.size() != static_cast<std::size_t>(source.channels) * pixels)
+        return Error{fmt::format("a picture of {} x {} pixels in {} bytes cannot be written", source.width,
+                                 source.height, source.bytes.size())};
+    std::string bytes;
+    const int width = static_cast<int>(source.width), height = static_cast<int>(source.height);
+    if (!stbi_write_png_to_func(append, &bytes, width, height, source.channels, source.bytes.data(),
+                                source.channels * width))
+        return Error{fmt::format("a picture of {} x {} pixels cannot be encoded", width, height)};
+    return bytes;
+}
+
 }  // namespace
 
 Image8 to_srgb(const Image& image, float exposure) {
@@ -47,18 +68,12 @@ Image8 to_srgb(const Image& image, float exposure) {
 }
 
 Result<std::string> encode_png(const Image8& picture) {
-    // stb_image_write counts bytes in int.
-    constexpr std::size_t k_most_pixels = std::size_t{1} << 28;
-    const std::size_t pixels = picture.width * picture.height;
-    if (pixels == 0 || picture.width > io::k_most_side || picture.height > io::k_most_side || pixels > k_most_pixels ||
-        picture.rgb.size() != 3 * pixels)
-        return Error{fmt::format("a picture of {} x {} pixels in {} bytes cannot be written", picture.width,
-                                 picture.height, picture.rgb.size())};
-    std::string bytes;
-    const int width = static_cast<int>(picture.width), height = static_cast<int>(picture.height);
-    if (!stbi_write_png_to_func(append, &bytes, width, height, 3, picture.rgb.data(), 3 * width))
-        return Error{fmt::format("a picture of {} x {} pixels cannot be encoded", width, height)};
-    return bytes;
+    return encode({picture.width, picture.height, 3, picture.rgb});
+}
+
+Result<std::string> encode_png(std::size_t width, std::size_t height,
+                               std::span<const std::array<std::uint8_t, 4>> texels) {
+    return encode({width, height, 4, {reinterpret_cast<const std::uint8_t*>(texels.data()), 4 * texels.size()}});
 }
 
 Status write_png(const std::filesystem::path& path, const Image8& picture) {

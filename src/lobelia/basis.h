@@ -2,7 +2,10 @@
 // are found from a linear one.
 #pragma once
 
+#include <optional>
+
 #include "lobelia/evaluator.h"
+#include "lobelia/texture_packing.h"
 
 namespace lobelia {
 
@@ -51,6 +54,11 @@ class Basis {
     /// the domain only.
     [[nodiscard]] virtual double furnace_bias() const { return 0.005; }
 
+    /// The ways to store coefficients in textures; the first is plain_packing.
+    [[nodiscard]] virtual std::vector<std::shared_ptr<const TexturePacking>> packings() const {
+        return {plain_packing(size())};
+    }
+
     /// The same radiance seen in a rotated frame, L'(R w) = L(w): a basis and coefficients that give it exactly.
     struct Rotated {
         std::shared_ptr<const Basis> basis;
@@ -58,6 +66,17 @@ class Basis {
     };
     /// For the hemisphere, `r` turns about z.
     [[nodiscard]] virtual Rotated rotated(const Rotation& r, std::span<const Rgb> c) const = 0;
+
+    /// The degree of the spherical harmonics that the coefficients belong to, where they are such: orthonormal, real,
+    /// all-plus, from degree 0 on.
+    [[nodiscard]] virtual std::optional<std::size_t> harmonics_degree() const { return std::nullopt; }
+
+    // What a storage may make use of.
+    /// Whether each coefficient is a colour, so that its chroma may be kept more coarsely than its luma.
+    [[nodiscard]] virtual bool has_colours() const { return true; }
+    /// Bounds b_i with |c_i| <= b_i c_0, channel by channel, for the coefficients of any light that is >= 0; empty
+    /// where the first coefficient bounds nothing. b_0 = 1.
+    [[nodiscard]] virtual std::vector<float> lead_bounds() const { return {}; }
 };
 
 /// Radiance L(w) = sum_i c_i B_i(w).

@@ -43,6 +43,7 @@
 #include "lobelia/harmonics.h"
 #include "lobelia/bases/gaussian.h"
 #include "lobelia/bases/sg_irradiance.h"
+#include "lobelia/bases/sh_baking.h"
 #include "lobelia/bases/spherical_gaussians.h"
 #include "lobelia/bases/sh_irradiance.h"
 #include "lobelia/bases/spherical_harmonics.h"
@@ -52,6 +53,15 @@
 #include "lobelia/encode/encoder.h"
 #include "lobelia/encode/moments.h"
 #include "lobelia/encode/sequential.h"
+
+// Coefficients in fewer bytes.
+#include "lobelia/half.h"
+#include "lobelia/pack/pixel_format.h"
+#include "lobelia/pack/texture_layout.h"
+#include "lobelia/pack.h"
+
+// Coefficients as others write them.
+#include "lobelia/conventions/sh_conventions.h"
 
 // All of these by name, and how good they were.
 #include "lobelia/codec.h"

@@ -202,8 +202,7 @@ Samples first(SampleView samples, std::size_t count) {
     return Samples(std::move(result));
 }
 
-AliasTable::AliasTable(std::span<const float> weights)
-    : probability_(weights.size()), threshold_(weights.size(), 1.0f), alias_(weights.size()) {
+AliasTable::AliasTable(std::span<const float> weights) : probability_(weights.size()), columns_(weights.size()) {
     // Normalise, then scale so that the mean is 1.
     float sum = 0;
     for (float w : weights) sum += w;
@@ -216,7 +215,7 @@ AliasTable::AliasTable(std::span<const float> weights)
     // Sort the columns into those below and those above the mean.
     std::vector<std::uint32_t> small, large;
     for (std::size_t i = 0; i < weights.size(); ++i) {
-        alias_[i] = static_cast<std::uint32_t>(i);
+        columns_[i].alias = static_cast<std::uint32_t>(i);
         (scaled[i] < 1 ? small : large).push_back(static_cast<std::uint32_t>(i));
     }
 
@@ -225,8 +224,7 @@ AliasTable::AliasTable(std::span<const float> weights)
         const std::uint32_t s = small.back(), l = large.back();
         small.pop_back();
         large.pop_back();
-        threshold_[s] = scaled[s];
-        alias_[s] = l;
+        columns_[s] = {scaled[s], l};
         scaled[l] = (scaled[l] + scaled[s]) - 1;
         (scaled[l] < 1 ? small : large).push_back(l);
     }
@@ -236,6 +234,22 @@ std::size_t AliasTable::sample(Point2 p) const {
     return choose(std::min(static_cast<std::size_t>(p.a * static_cast<double>(size())), size() - 1), p.b);
 }
 
-std::size_t AliasTable::choose(std::size_t i, double u) const { return u <= threshold_[i] ? i : alias_[i]; }
+AliasTable::Choice AliasTable::sample(double u) const {
+    const double scaled = u * static_cast<double>(size());
+    const std::size_t i = std::min(static_cast<std::size_t>(scaled), size() - 1);
+    const double within = scaled - static_cast<double>(i), threshold = columns_[i].threshold;
+    const auto below_one = [](double v) { return std::clamp(v, 0.0, 1 - 0x1p-53); };
+    if (within < threshold) return {i, below_one(within / threshold)};
+    return {columns_[i].alias, below_one((within - threshold) / (1 - threshold))};
+}
+
+double AliasTable::inverse(const Choice& choice) const {
+    return (static_cast<double>(choice.index) + choice.rest * columns_[choice.index].threshold) /
+           static_cast<double>(size());
+}
+
+std::size_t AliasTable::choose(std::size_t i, double u) const {
+    return u <= columns_[i].threshold ? i : columns_[i].alias;
+}
 
 }  // namespace lobelia

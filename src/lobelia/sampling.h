@@ -85,16 +85,28 @@ class AliasTable {
 
     /// The column floor(a * size) where b is at most its threshold, else its alias; a, b in [0, 1).
     [[nodiscard]] std::size_t sample(Point2 p) const;
+    /// An index from one number u in [0, 1), and what is left of it: uniform in [0, 1) again, with fewer digits.
+    struct Choice {
+        std::size_t index = 0;
+        double rest = 0;
+    };
+    [[nodiscard]] Choice sample(double u) const;
+    /// A number that is mapped to index i with `rest` left, where the index has a column of its own.
+    [[nodiscard]] double inverse(const Choice& choice) const;
     /// The column `i` if u <= its threshold, else its alias.
     [[nodiscard]] std::size_t choose(std::size_t i, double u) const;
     /// Probability of index i.
     [[nodiscard]] double probability(std::size_t i) const { return probability_[i]; }
-    [[nodiscard]] std::size_t size() const { return threshold_.size(); }
+    [[nodiscard]] std::size_t size() const { return columns_.size(); }
 
   private:
+    /// What one draw reads, together.
+    struct Column {
+        float threshold = 1;
+        std::uint32_t alias = 0;
+    };
     std::vector<float> probability_;
-    std::vector<float> threshold_;
-    std::vector<std::uint32_t> alias_;
+    std::vector<Column> columns_;
 };
 
 }  // namespace lobelia

@@ -46,6 +46,7 @@ struct BasisRun {
 struct Encoding {
     const BasisRun* run = nullptr;
     std::string encoder = {};
+    std::shared_ptr<const Encoder> made = {};
     std::vector<Rgb> c = {};
     double milliseconds = 0;
     std::map<Negative, Errors> radiance = {};
@@ -76,6 +77,7 @@ class Run {
         encode_all();
         read_all();
         Comparison result = assemble(codecs);
+        store_all(result.methods);
         if (options_.convergence) result.convergence = converge();
         return result;
     }
@@ -130,9 +132,9 @@ class Run {
         tbb::parallel_for(std::size_t{0}, encodings_.size(), [&](std::size_t i) {
             Encoding& e = encodings_[i];
             const Stage& stage = stages_.at(e.run->basis->domain());
-            const auto encoder = make_encoder(e.encoder, e.run->basis).value();
+            e.made = make_encoder(e.encoder, e.run->basis).value();
             const auto start = Clock::now();
-            Accumulator accumulator(encoder);
+            Accumulator accumulator(e.made);
             accumulator.add(stage.samples);
             e.c = accumulator.solve();
             e.milliseconds = milliseconds_since(start);
@@ -208,6 +210,19 @@ class Run {
         return outputs;
     }
 
+    /// Stores and judges every method's coefficients in every storage that was asked for.
+    void store_all(std::vector<Method>& methods) const {
+        if (options_.storages.empty()) return;
+        tbb::parallel_for(std::size_t{0}, methods.size(), [&](std::size_t i) {
+            Method& method = methods[i];
+            const Encoding& e = encoding(method.name);
+            const Codec codec(method.name, e.made, make_evaluator(method.name.evaluator, *e.run->basis).value());
+            const Stage& stage = stages_.at(method.domain);
+            method.storage =
+                storage_errors(codec, method.c, options_.storages, stage.judged, stage.reference_irradiance_over_pi);
+        });
+    }
+
     [[nodiscard]] Comparison assemble(const std::vector<CodecName>& codecs) {
         Comparison result;
         result.reference = "exact sum over texels";
@@ -221,8 +236,14 @@ class Run {
             const Reading& r = reading(name);
             Errors radiance = e.radiance.at(r.negative);
             radiance.negative_share = e.radiance.at(Negative::kept).negative_share;
-            result.methods.push_back({name, e.run->basis->domain(), e.c, radiance, r.irradiance.at(name.encoder),
-                                      e.milliseconds, r.nanoseconds});
+            result.methods.push_back({name,
+                                      e.run->basis->domain(),
+                                      e.c,
+                                      radiance,
+                                      r.irradiance.at(name.encoder),
+                                      e.milliseconds,
+                                      r.nanoseconds,
+                                      {}});
         }
         if (options_.pictures) {
             for (auto& reading : readings_)

@@ -9,6 +9,7 @@
 #include "lobelia/environment.h"
 #include "lobelia/metrics.h"
 #include "lobelia/sampling.h"
+#include "report/storage_errors.h"
 
 namespace lobelia {
 
@@ -16,12 +17,13 @@ namespace lobelia {
 using Progress = std::function<void(double)>;
 
 struct ComparisonOptions {
-    std::optional<Sequence> sequence = {};    ///< none: every texel is one sample, once
-    std::optional<std::size_t> samples = {};  ///< none: all texels, or 20,000 of a sequence; else that many
-    std::uint32_t seed = 1;                   ///< of the sequence and of the shuffle
-    std::size_t most_texels = 131072;         ///< larger environments are reduced first, energy kept
-    bool pictures = true;                     ///< evaluate the pictures of a page too
-    bool convergence = true;                  ///< and measure excess error against sample count
+    std::optional<Sequence> sequence = {};      ///< none: every texel is one sample, once
+    std::optional<std::size_t> samples = {};    ///< none: all texels, or 20,000 of a sequence; else that many
+    std::uint32_t seed = 1;                     ///< of the sequence and of the shuffle
+    std::size_t most_texels = 131072;           ///< larger environments are reduced first, energy kept
+    bool pictures = true;                       ///< evaluate the pictures of a page too
+    bool convergence = true;                    ///< and measure excess error against sample count
+    std::vector<const Storage*> storages = {};  ///< in which coefficients are stored and judged again
 };
 
 /// One codec's result.
@@ -33,6 +35,7 @@ struct Method {
     Errors irradiance_over_pi;  ///< of E / pi, at the same directions as normals
     double encode_ms = 0;
     double evaluate_ns_per_normal = 0;
+    std::vector<StorageErrors> storage = {};  ///< one for each of the options' storages that suits
 };
 
 /// Excess error |b - b*|_G / |b*|_G against the number of samples; b* is what the encoder strives for, solved from all

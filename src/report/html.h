@@ -1,29 +1,13 @@
 // The HTML report: one file that opens anywhere, offline, with its pictures as half floats inside.
 #pragma once
 
-#include <cstdint>
 #include <map>
 #include <nlohmann/json_fwd.hpp>
-#include <span>
 #include <string>
 
-#include "lobelia/planes.h"
+#include "report/page/picture.h"
 
 namespace lobelia {
-
-/// A picture as the page takes it: base64 of little-endian float16 R, G, B, row by row; 8 characters for a pixel.
-struct Picture {
-    std::size_t width = 0;
-    std::size_t height = 0;
-    std::string base64_half;
-};
-
-/// `value` as IEEE 754 binary16, rounded to nearest, ties to even; magnitudes beyond 65504 become 65504, NaN stays NaN.
-[[nodiscard]] std::uint16_t half_from_float(float value);
-
-/// Encodes linear pixels, row by row from the top left. Precondition: as many pixels as `width` x `height`.
-[[nodiscard]] Picture encode_picture(std::span<const Rgb> pixels, std::size_t width, std::size_t height);
-[[nodiscard]] Picture encode_picture(const ColourView& pixels, std::size_t width, std::size_t height);
 
 /// All pictures of a report, latitude-longitude, linear: radiance [W/(m^2 sr)] and irradiance over pi [W/(m^2 sr)].
 /// A picture may be any size, and may be missing: the page then leaves its place empty.

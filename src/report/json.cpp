@@ -4,6 +4,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "report/checked_json.h"
+
 namespace lobelia {
 namespace {
 
@@ -23,30 +25,48 @@ json coefficients(std::span<const Rgb> c) {
 
 std::string_view domain_name(Domain domain) { return domain == Domain::sphere ? "sphere" : "hemisphere"; }
 
+json to_json(const StorageErrors& s) {
+    return {{"name", s.storage},
+            {"bytes", s.bytes},
+            {"radiance_rms", s.radiance_rms},
+            {"irradiance_over_pi_rms", s.irradiance_over_pi_rms},
+            {"largest_error", s.largest_error},
+            {"bound", s.bound},
+            {"bound_used", s.bound_used},
+            {"cut", s.cut}};
+}
+
 json to_json(const Method& m, DirectionView judged) {
     const std::size_t floats = 3 * m.c.size();
     const Vec3 worst = world_from_domain(m.domain, direction_at(judged, m.irradiance_over_pi.worst_index));
-    return {{"name", m.name.str()},
-            {"basis", m.name.basis},
-            {"encoder", m.name.encoder},
-            {"evaluator", m.name.evaluator},
-            {"domain", domain_name(m.domain)},
-            {"floats", floats},
-            {"bytes", floats * sizeof(float)},
-            {"radiance_rms", m.radiance.rms},
-            {"radiance_rms_unweighted", m.radiance.rms_unweighted},
-            {"radiance_smape", m.radiance.smape},
-            {"radiance_relmse", m.radiance.relmse},
-            {"irradiance_over_pi_rms", m.irradiance_over_pi.rms},
-            {"irradiance_over_pi_rms_unweighted", m.irradiance_over_pi.rms_unweighted},
-            {"irradiance_smape", m.irradiance_over_pi.smape},
-            {"irradiance_relmse", m.irradiance_over_pi.relmse},
-            {"irradiance_worst", {{"error", m.irradiance_over_pi.worst}, {"direction", {worst.x, worst.y, worst.z}}}},
-            {"negative_share", m.radiance.negative_share},
-            {"irradiance_negative_share", m.irradiance_over_pi.negative_share},
-            {"encode_ms", m.encode_ms},
-            {"evaluate_ns_per_normal", m.evaluate_ns_per_normal},
-            {"coefficients", coefficients(m.c)}};
+    json method = {
+        {"name", m.name.str()},
+        {"basis", m.name.basis},
+        {"encoder", m.name.encoder},
+        {"evaluator", m.name.evaluator},
+        {"domain", domain_name(m.domain)},
+        {"floats", floats},
+        {"bytes", floats * sizeof(float)},
+        {"radiance_rms", m.radiance.rms},
+        {"radiance_rms_unweighted", m.radiance.rms_unweighted},
+        {"radiance_smape", m.radiance.smape},
+        {"radiance_relmse", m.radiance.relmse},
+        {"irradiance_over_pi_rms", m.irradiance_over_pi.rms},
+        {"irradiance_over_pi_rms_unweighted", m.irradiance_over_pi.rms_unweighted},
+        {"irradiance_smape", m.irradiance_over_pi.smape},
+        {"irradiance_relmse", m.irradiance_over_pi.relmse},
+        {"irradiance_worst", {{"error", m.irradiance_over_pi.worst}, {"direction", {worst.x, worst.y, worst.z}}}},
+        {"negative_share", m.radiance.negative_share},
+        {"irradiance_negative_share", m.irradiance_over_pi.negative_share},
+        {"encode_ms", m.encode_ms},
+        {"evaluate_ns_per_normal", m.evaluate_ns_per_normal},
+        {"coefficients", coefficients(m.c)}};
+    if (!m.storage.empty()) {
+        json stored = json::array();
+        for (const StorageErrors& s : m.storage) stored.push_back(to_json(s));
+        method["storage"] = std::move(stored);
+    }
+    return method;
 }
 
 json to_json(const Convergence& c) {
@@ -119,8 +139,10 @@ json to_json(const CoefficientFile& file) {
 }
 
 Result<CoefficientFile> coefficients_from_json(std::string_view text, const std::string& name) {
-    const json content = json::parse(text, nullptr, false);
-    if (content.is_discarded() || !content.is_object()) return Error{name + ": not a JSON object of coefficients"};
+    const auto parsed = checked_json(text, name);
+    if (!parsed) return parsed.error();
+    const json& content = *parsed;
+    if (!content.is_object()) return Error{name + ": not a JSON object of coefficients"};
     // By reference: copying what is nested a million deep would overflow the stack.
     const auto member = [&, none = json()](const char* key) -> const json& {
         return content.contains(key) ? content[key] : none;
@@ -131,7 +153,7 @@ Result<CoefficientFile> coefficients_from_json(std::string_view text, const std:
         return Error{name + ": no \"lobelia_coefficients\" version in it; is it from `lobelia encode`?"};
     if (format.get<long long>() != k_coefficient_format)
         return Error{name + ": version " + format.dump() + ", but this program reads version " +
-                     std::to_string(k_coefficient_format)};
+                     std::to_string(k_coefficient_format) + "; write it again with `lobelia encode`"};
     if (!member("codec").is_string()) return Error{name + ": no \"codec\" in it"};
     const auto codec = make_codec(member("codec").get<std::string>());
     if (!codec) return Error{name + ": " + codec.error().message};

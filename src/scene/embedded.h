@@ -23,16 +23,24 @@ struct CornellOptions {
 /// arches, under the clear sky of sky.h. The sun is a directional light with the radius of its disc; the environment
 /// holds sky and ground without it.
 struct ColonnadeOptions {
-    double sun_elevation = 38;     ///< [degrees]
-    double sun_azimuth = 148;      ///< from -z towards +x [degrees]; 180 shines straight in
-    std::size_t sky_height = 128;  ///< texels of the environment from top to bottom, twice that around
+    double sun_elevation = 31;     ///< [degrees]
+    double sun_azimuth = 140;      ///< from -z towards +x [degrees]; 180 shines straight in
+    std::size_t sky_height = 256;  ///< texels of the environment from top to bottom, twice that around
 };
 [[nodiscard]] Scene colonnade_scene(const ColonnadeOptions& options = {});
+
+/// A square landscape of 2 quads^2 triangles in one chart, a million by default: to see what large scenes cost.
+struct TerrainOptions {
+    float side = 100;         ///< [m]
+    std::size_t quads = 708;  ///< along each side
+};
+[[nodiscard]] Scene terrain_scene(const TerrainOptions& options = {});
 
 /// What embedded_scene knows, in order.
 [[nodiscard]] std::span<const std::string_view> embedded_scene_names();
 
-/// The scene of that name with its default options; an error that lists the names where there is none.
+/// The scene of that name with its default options, or the "terrain"; an error that lists the names where there is
+/// none.
 [[nodiscard]] Result<Scene> embedded_scene(std::string_view name);
 
 }  // namespace lobelia

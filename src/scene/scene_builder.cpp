@@ -39,7 +39,7 @@ void SceneBuilder::add_grid(const PatchOptions& options, const GridPoint& point)
     charts_.push_back({scene_.meshes.size() - 1, first, stride * (options.rows + 1), options.size * options.density});
     for (std::size_t row = 0; row <= options.rows; ++row)
         for (std::size_t column = 0; column < stride; ++column) {
-            const SurfacePoint p = point(column, row);
+            const PatchPoint p = point(column, row);
             mesh.positions.push_back(p.position);
             mesh.normals.push_back(p.normal);
             mesh.uv[0].push_back(p.uv);
@@ -61,7 +61,7 @@ void SceneBuilder::quad(Vec3 corner, Vec3 right, Vec3 up, const PatchOptions& op
     sized.size = {length(right), length(up)};
     const Vec3 normal = normalize(cross(right, up));
     patch(sized, [&](float u, float v) {
-        return SurfacePoint{corner + right * u + up * v, normal, {u * sized.size.x, v * sized.size.y}};
+        return PatchPoint{corner + right * u + up * v, normal, {u * sized.size.x, v * sized.size.y}};
     });
 }
 
@@ -111,10 +111,10 @@ void SceneBuilder::lathe(Vec3 base, std::span<const ProfilePoint> profile, std::
         const ProfilePoint& point = profile[row];
         const double turn = static_cast<double>(column % segments) / static_cast<double>(segments);
         const auto s = static_cast<float>(std::sin(2 * k_pi * turn)), c = static_cast<float>(std::cos(2 * k_pi * turn));
-        return SurfacePoint{base + Vec3{point.radius * s, point.y, point.radius * c},
-                            normalize({point.normal.x * s, point.normal.y, point.normal.x * c}),
-                            {static_cast<float>(column) / static_cast<float>(segments) * sized.size.x,
-                             sized.row_stops[row] * sized.size.y}};
+        return PatchPoint{base + Vec3{point.radius * s, point.y, point.radius * c},
+                          normalize({point.normal.x * s, point.normal.y, point.normal.x * c}),
+                          {static_cast<float>(column) / static_cast<float>(segments) * sized.size.x,
+                           sized.row_stops[row] * sized.size.y}};
     });
 }
 
@@ -147,6 +147,8 @@ Scene SceneBuilder::finish(const LightmapOptions& options) {
         }
     }
     charts_.clear();
+    if (scene_.textures.empty())
+        for (Mesh& mesh : scene_.meshes) mesh.uv[0].clear();
     return std::exchange(scene_, {});
 }
 

@@ -12,7 +12,7 @@
 namespace lobelia {
 
 /// A point of a patch: `normal` is unit, `uv` is for textures.
-struct SurfacePoint {
+struct PatchPoint {
     Vec3 position;
     Vec3 normal;
     Vec2 uv;
@@ -80,7 +80,8 @@ class SceneBuilder {
         std::uint32_t grid = 256;   ///< chart corners are multiples of 1 / grid
         std::uint32_t padding = 4;  ///< between charts [1 / grid]
     };
-    /// Packs the charts at the largest scale that fits. The builder is empty after.
+    /// Packs the charts at the largest scale that fits. Texture coordinates are dropped where there is no texture. The
+    /// builder is empty after.
     [[nodiscard]] Scene finish(const LightmapOptions& options);
 
   private:
@@ -89,7 +90,7 @@ class SceneBuilder {
         std::size_t mesh = 0, first_vertex = 0, vertices = 0;
         Vec2 size;
     };
-    using GridPoint = std::function<SurfacePoint(std::size_t column, std::size_t row)>;
+    using GridPoint = std::function<PatchPoint(std::size_t column, std::size_t row)>;
     void add_grid(const PatchOptions& options, const GridPoint& point);
     [[nodiscard]] static float stop(std::span<const float> stops, std::size_t i, std::size_t count) {
         return stops.empty() ? static_cast<float>(i) / static_cast<float>(count) : stops[i];

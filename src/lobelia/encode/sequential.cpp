@@ -9,13 +9,14 @@
 namespace lobelia {
 namespace {
 
-/// State: sum of weights, number of samples, then b (r, g, b arrays) and one number per lobe, each of size() floats.
+/// State: sum of weights, number of samples, then b (r, g, b arrays) and, if wanted, one number per lobe, each of
+/// size() floats.
 class SequentialEncoder : public LinearEncoder {
   public:
     SequentialEncoder(std::shared_ptr<const LinearBasis> basis_of, Sign sign)
         : LinearEncoder(std::move(basis_of)), sign_(sign) {}
 
-    [[nodiscard]] std::size_t state_size() const override { return k_header + 4 * basis().size(); }
+    [[nodiscard]] std::size_t state_size() const override { return k_header + arrays() * basis().size(); }
     [[nodiscard]] Merging merging() const override { return Merging::approximate; }
     [[nodiscard]] bool is_non_negative() const override { return sign_ == Sign::non_negative; }
 
@@ -30,7 +31,8 @@ class SequentialEncoder : public LinearEncoder {
         for (std::size_t k = 0; k < 3; ++k) s.b[k] = padded.data() + k * lanes;
         s.per_lobe = padded.data() + 3 * lanes;
         s.floor = padded.data() + 4 * lanes;
-        for (std::size_t k = 0; k < 4; ++k) std::copy_n(state.data() + k_header + k * n, n, padded.data() + k * lanes);
+        for (std::size_t k = 0; k < arrays(); ++k)
+            std::copy_n(state.data() + k_header + k * n, n, padded.data() + k * lanes);
         if (state[k_count] == 0) start(s);
         fill_floor(padded.data() + 4 * lanes);
 
@@ -57,7 +59,8 @@ class SequentialEncoder : public LinearEncoder {
         // Pack it again.
         state[k_weight] = static_cast<float>(progress.weight);
         state[k_count] = static_cast<float>(progress.count);
-        for (std::size_t k = 0; k < 4; ++k) std::copy_n(padded.data() + k * lanes, n, state.data() + k_header + k * n);
+        for (std::size_t k = 0; k < arrays(); ++k)
+            std::copy_n(padded.data() + k * lanes, n, state.data() + k_header + k * n);
     }
 
     void solve(std::span<const float> state, std::span<Rgb> c) const override {
@@ -101,6 +104,7 @@ class SequentialEncoder : public LinearEncoder {
     /// The least denominators; the lanes past the last lobe too.
     virtual void fill_floor(float*) const {}
     [[nodiscard]] virtual bool wants_gains() const { return false; }
+    [[nodiscard]] virtual bool wants_numbers_per_lobe() const { return true; }
     virtual void fill_gains(const float* /*rows*/, std::size_t /*size*/, float* /*to*/) const {}
     /// The step of a sample of weight `weight`; counts it in.
     virtual float step(float weight, Progress& progress) const = 0;
@@ -113,6 +117,7 @@ class SequentialEncoder : public LinearEncoder {
     virtual void merge_per_lobe(float& mine, float other, float share) const { mine += share * (other - mine); }
 
   private:
+    [[nodiscard]] std::size_t arrays() const { return wants_numbers_per_lobe() ? 4 : 3; }
     static void transpose(const float* rows, std::size_t n, std::size_t lanes, std::size_t size, float* to) {
         for (std::size_t i = 0; i < n; ++i)
             for (std::size_t j = 0; j < size; ++j) to[j * lanes + i] = rows[i * k_block_size + j];
@@ -242,6 +247,7 @@ class MatrixGain final : public SequentialEncoder {
 
   protected:
     [[nodiscard]] bool wants_gains() const override { return true; }
+    [[nodiscard]] bool wants_numbers_per_lobe() const override { return false; }
     void fill_gains(const float* rows, std::size_t size, float* to) const override {
         kernels::transform_rows(rows, basis().size(), inverse_.data(), size, to);
     }

@@ -12,12 +12,11 @@ const view = {
 
 const luminance = ([r, g, b]) => 0.2126 * r + 0.7152 * g + 0.0722 * b;
 
-/// The factor that shows the reference's mean radiance, which is also the mean of E/pi, as a quarter of white: lit
-/// spheres come out as a light grey, and the brighter side has two stops of room.
-const automatic_gain = (() => {
-    const mean = luminance(report.environment?.mean_radiance ?? [0.25, 0.25, 0.25]);
-    return mean > 0 ? 0.25 / mean : 1;
-})();
+/// The factor at 0 EV: it shows `mean_luminance` as a quarter of white, which leaves the brighter half two stops of room.
+let automatic_gain = 1;
+function expose_for(mean_luminance) {
+    automatic_gain = mean_luminance > 0 ? 0.25 / mean_luminance : 1;
+}
 const gain = () => automatic_gain * 2 ** view.exposure;
 
 /// Linear to linear in [0, 1].
@@ -78,13 +77,9 @@ function write_error(error, scale, out, at) {
 }
 
 const k_error_scales = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1];
+/// The least of the scales that leaves room above what is typical.
+const error_scale_for = (typical) => k_error_scales.find((scale) => scale >= 2 * typical) ?? 1;
 
-/// The least scale that leaves room above what is typical: twice the median of the methods' mean errors.
-function automatic_error_scale(shown, quantity) {
-    const errors = shown
-        .map((method) => method[quantities[quantity].smape])
-        .filter(Number.isFinite)
-        .sort((a, b) => a - b);
-    const typical = errors.length ? errors[Math.trunc(errors.length / 2)] : 1;
-    return k_error_scales.find((scale) => scale >= 2 * typical) ?? 1;
+function error_gradient() {
+    return `linear-gradient(to right, ${k_inferno.map((rgb) => `rgb(${rgb.join(" ")})`).join(", ")})`;
 }

@@ -22,7 +22,13 @@ function open_detail(method) {
     forget_canvases(panel);
     panel.replaceChildren(
         detail_heading(method),
-        element("div.detail-body", detail_pictures(method), detail_figures(method), detail_coefficients(method)),
+        element(
+            "div.detail-body",
+            detail_pictures(method),
+            detail_figures(method),
+            detail_storage(method),
+            detail_coefficients(method),
+        ),
     );
     panel.hidden = false;
     document.body.classList.add("with-detail");
@@ -122,6 +128,43 @@ function detail_figures(method) {
         ...fact("Evaluation", `${figure_text(method.evaluate_ns_per_normal)} ns for a normal`),
     );
     return element("div.detail-figures", errors, facts);
+}
+
+/// What is left of the method in each storage that was asked for; null where none was.
+function detail_storage(method) {
+    if (!method.storage?.length) return null;
+    const five_digits = (value) => (Number.isFinite(value) ? value.toPrecision(5) : "–");
+    const columns = [
+        ["Storage", (stored) => stored.name],
+        ["Bytes", ({ bytes }) => plain_tick(bytes)],
+        ["L, RMS", ({ radiance_rms }) => five_digits(radiance_rms)],
+        ["E/π, RMS", ({ irradiance_over_pi_rms }) => five_digits(irradiance_over_pi_rms)],
+        ["Largest error", ({ largest_error }) => figure_text(largest_error)],
+        ["Bound", ({ bound, cut }) => (cut ? `${figure_text(bound)}, ${cut} cut` : figure_text(bound))],
+    ];
+    const head = element("tr", ...columns.map(([title]) => element("th", { scope: "col" }, title)));
+    const rows = method.storage.map((stored) =>
+        element(
+            "tr",
+            ...columns.map(([, text], i) =>
+                i ? element("td", text(stored)) : element("th", { scope: "row" }, text(stored)),
+            ),
+        ),
+    );
+    return element(
+        "section.detail-storage",
+        { "aria-label": "Storage" },
+        element(
+            "div.section-head",
+            element("h3", "Stored"),
+            element(
+                "p.muted",
+                "As a single texel: blocks and coarse chroma lose more where neighbours differ. " +
+                    "The last two are of coefficients, relative to the largest.",
+            ),
+        ),
+        element("table.figures-table", element("thead", head), element("tbody", ...rows)),
+    );
 }
 
 function detail_coefficients(method) {

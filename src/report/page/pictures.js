@@ -80,21 +80,15 @@ function attach_probe(frame, get, quantity, label) {
 }
 
 function show_probe(event, u, v, lines) {
-    const tip = by_id("tip");
     const root = document.documentElement;
     root.style.setProperty("--probe-u", `${u * 100}%`);
     root.style.setProperty("--probe-v", `${v * 100}%`);
     root.classList.add("probing");
-    tip.replaceChildren(...lines.map((line) => element("div", line)));
-    tip.hidden = false;
-    const left = Math.min(event.clientX + 16, innerWidth - tip.offsetWidth - 8);
-    const below = event.clientY + 20;
-    const above = event.clientY - tip.offsetHeight - 12;
-    tip.style.transform = `translate(${left}px, ${below + tip.offsetHeight > innerHeight ? above : below}px)`;
+    show_tip(event, lines);
 }
 
 function hide_probe() {
-    by_id("tip").hidden = true;
+    hide_tip();
     document.documentElement.classList.remove("probing");
 }
 
@@ -238,8 +232,13 @@ function error_legend(quantity) {
     return element("div.error-legend", element("label", "Scale ", select), bar, element("div.ticks.number", ...ticks));
 }
 
-function error_gradient() {
-    return `linear-gradient(to right, ${k_inferno.map((rgb) => `rgb(${rgb.join(" ")})`).join(", ")})`;
+/// A scale with room above twice the median of the methods' mean errors.
+function automatic_error_scale(shown, quantity) {
+    const errors = shown
+        .map((method) => method[quantities[quantity].smape])
+        .filter(Number.isFinite)
+        .sort((a, b) => a - b);
+    return error_scale_for(errors.length ? errors[Math.trunc(errors.length / 2)] : 1);
 }
 
 function update_error_scales() {

@@ -5,13 +5,19 @@ const plots = {
     made: [],
     error: "irradiance_over_pi_rms",
     domain: domains[0],
+    storage: "",
     colour: new Set(methods.map(family_of)).size > 3 ? "family" : "encoder",
     basis: null,
     sequence: null,
 };
 
 /// What the colours of the size plot may tell apart.
-const plot_groups = { family: family_of, encoder: (method) => method.encoder, evaluator: (method) => method.evaluator };
+const plot_groups = {
+    family: ({ method }) => family_of(method),
+    encoder: ({ method }) => method.encoder,
+    evaluator: ({ method }) => method.evaluator,
+    storage: ({ storage }) => storage,
+};
 
 const plot_errors = [
     ["irradiance_over_pi_rms", "Irradiance E/π, RMS"],
@@ -47,10 +53,25 @@ const as_options = (values) => values.map((value) => [value, value]);
 
 // ---- Error against bytes
 
-/// The methods that no other beats in both bytes and error, from small to large.
+/// The names of all storages that methods were judged in.
+const storage_names = [...new Set(methods.flatMap((method) => (method.storage ?? []).map(({ name }) => name)))];
+
+/// What the size plot shows of a method: itself in floats, or what the chosen storages give back of it.
+function stored_figures(method) {
+    if (!plots.storage) return [{ bytes: method.bytes, error: method[plots.error], storage: "floats" }];
+    return (method.storage ?? [])
+        .filter(({ name }) => plots.storage === "*" || name === plots.storage)
+        .map((stored) => ({ bytes: stored.bytes, error: stored[plots.error], storage: stored.name }));
+}
+
+/// The errors that were judged of what is shown.
+const shown_errors = () =>
+    plots.storage ? plot_errors.filter(([key]) => methods.some(({ storage }) => key in (storage?.[0] ?? {}))) : plot_errors;
+
+/// The points that no other beats in both bytes and error, from small to large.
 function pareto_front(points) {
     const front = [];
-    for (const point of [...points].sort((a, b) => a.method.bytes - b.method.bytes || a.y - b.y))
+    for (const point of [...points].sort((a, b) => a.bytes - b.bytes || a.y - b.y))
         if (!front.length || point.y < front.at(-1).y) front.push(point);
     return front;
 }
@@ -83,14 +104,19 @@ const front_labels = {
     },
 };
 
-/// A point for each method. Groups of one size would hide each other: they stand apart by 1 % of the size, all of them
-/// by no more than 8 %.
-function size_points(groups, group_of) {
-    const spread = 1 + Math.min(0.01 * groups.length, 0.08);
-    const apart = (method) => spread ** ((groups.indexOf(group_of(method)) + 0.5) / groups.length - 0.5);
+/// A point for each method, or for each storage of each.
+function size_points() {
     return methods
-        .filter((method) => method.domain === plots.domain && method.bytes > 0 && method[plots.error] > 0)
-        .map((method) => ({ x: method.bytes * apart(method), y: method[plots.error], method }));
+        .filter((method) => method.domain === plots.domain)
+        .flatMap((method) => stored_figures(method).map((figures) => ({ method, ...figures, y: figures.error })))
+        .filter(({ bytes, y }) => bytes > 0 && y > 0);
+}
+
+/// Groups of one size would hide each other: they stand apart by 1 % of the size, all of them by no more than 8 %.
+function spread_apart(points, groups, group_of) {
+    const spread = 1 + Math.min(0.01 * groups.length, 0.08);
+    const apart = (point) => spread ** ((groups.indexOf(group_of(point)) + 0.5) / groups.length - 0.5);
+    for (const point of points) point.x = point.bytes * apart(point);
 }
 
 function size_series(label, points, i) {
@@ -130,7 +156,10 @@ function size_options(points) {
     const options = plot_options(
         log_axis("Bytes", { binary: true, values: points.map(({ x }) => x) }),
         log_axis(title, { values: points.map(({ y }) => y) }),
-        ({ raw }) => `${raw.method.name}: ${figure_text(raw.y)}, ${count_text(raw.method.bytes)} bytes`,
+        ({ raw }) => {
+            const name = plots.storage ? `${raw.method.name}, ${raw.storage}` : raw.method.name;
+            return `${name}: ${figure_text(raw.y)}, ${count_text(raw.bytes)} bytes`;
+        },
     );
     const most_in_tip = 8;
     options.plugins.tooltip.filter = ({ dataset }, i) => !dataset.front && i < most_in_tip;
@@ -142,22 +171,28 @@ function size_options(points) {
 }
 
 function build_size_plot() {
-    if (new Set(methods.map(({ bytes }) => bytes)).size < 2) return null;
+    if (new Set(methods.map(({ bytes }) => bytes)).size < 2 && !storage_names.length) return null;
+    const errors = shown_errors();
+    if (!errors.some(([key]) => key === plots.error)) plots.error = errors[0][0];
+    const group_names = Object.keys(plot_groups).filter((name) => name !== "storage" || storage_names.length);
     const controls = [
-        plot_select("Error", "error", plot_errors),
-        plot_select("Colour by", "colour", as_options(Object.keys(plot_groups))),
+        plot_select("Error", "error", errors),
+        plot_select("Colour by", "colour", as_options(group_names)),
     ];
     if (domains.length > 1) controls.push(plot_select("Domain", "domain", as_options(domains)));
+    if (storage_names.length)
+        controls.push(plot_select("Stored as", "storage", [["", "floats"], ["*", "all"], ...as_options(storage_names)]));
     const { card, canvas } = plot_card(
         "Error against size",
         "Every method; the line joins those that nothing beats in both. A click opens the details.",
         controls,
     );
     const group_of = plot_groups[plots.colour];
-    const groups = [...new Set(methods.map(group_of))];
-    const points = size_points(groups, group_of);
-    const points_of = (group) => points.filter(({ method }) => group_of(method) === group);
-    const series = groups.map((group, i) => size_series(group, points_of(group), i)).filter(({ data }) => data.length);
+    const points = size_points();
+    const groups = [...new Set(points.map(group_of))];
+    spread_apart(points, groups, group_of);
+    const points_of = (group) => points.filter((point) => group_of(point) === group);
+    const series = groups.map((group, i) => size_series(group, points_of(group), i));
     const make = () => {
         if (!points.length) return;
         const data = { datasets: [...series, front_series(points)] };

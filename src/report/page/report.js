@@ -22,15 +22,8 @@ function build_header() {
         ["Methods", String(methods.length)],
     ];
     facts.push(...setting_facts(settings));
-    by_id("summary").append(
-        ...facts
-            .filter(([, value]) => value)
-            .map(([name, value]) => element("div", element("dt", name), element("dd", value))),
-    );
-
-    const warnings = environment.warnings ?? [];
-    by_id("warnings").hidden = warnings.length === 0;
-    by_id("warnings").append(...warnings.map((text) => element("li", text)));
+    show_facts(facts.filter(([, value]) => value));
+    show_warnings(environment.warnings ?? []);
 }
 
 /// All settings but the recipe and what is null; a width and its height become one.
@@ -53,14 +46,6 @@ function setting_text(value) {
 
 // ---- Controls
 
-function set_exposure(ev) {
-    view.exposure = Number(ev);
-    by_id("exposure").value = ev;
-    by_id("exposure-text").textContent = `${signed_text(view.exposure, 1)} EV`;
-    by_id("exposure-text").title = `Values are multiplied by ${figure_text(gain())}`;
-    repaint();
-}
-
 function turn_spheres(degrees) {
     view.turn = ((((degrees + 180) % 360) + 360) % 360) - 180;
     by_id("turn").value = view.turn;
@@ -69,18 +54,9 @@ function turn_spheres(degrees) {
 }
 
 function connect_controls() {
-    by_id("exposure").addEventListener("input", (event) => set_exposure(event.target.value));
-    by_id("exposure-reset").addEventListener("click", () => set_exposure(0));
+    connect_toolbar();
     by_id("turn").addEventListener("input", (event) => turn_spheres(Number(event.target.value)));
     by_id("turn-reset").addEventListener("click", () => turn_spheres(0));
-    by_id("tone").addEventListener("change", (event) => {
-        view.tone = event.target.value;
-        repaint();
-    });
-    by_id("negative").addEventListener("change", (event) => {
-        view.mark_negative = event.target.checked;
-        repaint();
-    });
     by_id("layout").addEventListener("change", (event) => {
         picture_table.layout = event.target.value;
         lay_out_pictures();
@@ -99,9 +75,6 @@ function connect_page() {
     document.addEventListener("keydown", (event) => {
         if (event.key === "Escape") close_detail();
     });
-    new ResizeObserver(([{ target }]) =>
-        document.documentElement.style.setProperty("--toolbar-height", `${target.offsetHeight}px`),
-    ).observe(by_id("toolbar"));
     addEventListener("resize", () => {
         lay_out_pictures();
         repaint(".sphere");
@@ -120,6 +93,7 @@ build_picture_table();
 build_method_table();
 connect_controls();
 connect_page();
+expose_for(luminance(report.environment?.mean_radiance ?? [0.25, 0.25, 0.25]));
 set_exposure(0);
 turn_spheres(0);
 setTimeout(build_plots); // below the fold: let the pictures come first

@@ -1,0 +1,9 @@
+// Benchmarks of light transport.
+#pragma once
+
+namespace lobelia::bench {
+
+/// Adds the rows trace.*.
+void register_trace();
+
+}  // namespace lobelia::bench

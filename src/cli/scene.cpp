@@ -1,0 +1,48 @@
+// lobelia scene: writes the scenes that the program carries as glTF files.
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+
+#include "cli/common.h"
+#include "cli/verbs.h"
+#include "io/write_image.h"
+#include "scene/embedded.h"
+#include "scene/gltf_write.h"
+
+namespace lobelia::cli {
+namespace {
+
+struct Options {
+    std::string name;
+    std::string out;
+    std::string environment;
+};
+
+Status scene_verb(const Options& options) {
+    // Make everything before the first file is written.
+    const auto scene = embedded_scene(options.name);
+    if (!scene) return scene.error();
+    const auto glb = encode_glb(*scene);
+    if (!glb) return glb.error();
+    if (options.environment.empty()) return write_file_atomically(options.out, *glb);
+    if (!scene->environment)
+        return Error{fmt::format("--environment: the scene {} has none: it is lit by its lamp alone", options.name)};
+    const auto exr = encode_exr(*scene->environment);
+    if (!exr) return exr.error();
+    const FileContent files[] = {{options.out, *glb}, {options.environment, *exr}};
+    return write_files_together(files);
+}
+
+}  // namespace
+
+Verb add_scene(CLI::App& app) {
+    auto options = std::make_shared<Options>();
+    CLI::App* command = app.add_subcommand("scene", "Write a scene that the program carries as a glTF file");
+    command->add_option("NAME", options->name, fmt::format("Which one: {}", fmt::join(embedded_scene_names(), ", ")))
+        ->required();
+    command->add_option("-o,--output", options->out, "The file to write, .glb")->required();
+    command->add_option("--environment", options->environment,
+                        "Its environment, which glTF cannot hold, as another file (.exr)");
+    return {command, [options] { return scene_verb(*options); }};
+}
+
+}  // namespace lobelia::cli

@@ -1,0 +1,166 @@
+// lobelia unwrap: gives a glTF scene lightmap UVs, by a script that runs watlas (xatlas) under Node.js.
+#include <fmt/core.h>
+
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "cli/common.h"
+#include "cli/process.h"
+#include "cli/verbs.h"
+#include "io/read_file.h"
+#include "scene/gltf_read.h"
+#include "scene/lightmap_check.h"
+
+namespace lobelia::cli {
+namespace {
+
+struct Options {
+    std::string in;
+    std::string out;
+    std::string layout = "shared";
+    std::optional<double> texels_per_metre;
+    std::optional<std::uint32_t> size;
+    std::uint32_t padding = 4;
+    std::size_t uv_set = 1;
+    std::uint32_t timeout = 3600;
+};
+
+constexpr std::size_t k_most_bytes = std::size_t{1} << 32;
+
+/// The folder of the script: where it is installed, or in the source tree that this program was built in.
+Result<std::filesystem::path> script_folder() {
+    std::vector<std::filesystem::path> folders;
+    if (const char* named = std::getenv("LOBELIA_TOOLS")) folders.emplace_back(named);
+    for (const char* relative : {"../share/lobelia/tools", "../../tools", "../tools"})
+        folders.push_back((program_folder() / relative).lexically_normal());
+    std::error_code code;
+    for (const auto& folder : folders)
+        if (std::filesystem::exists(folder / "unwrap.mjs", code)) return folder;
+    return Error{
+        fmt::format("unwrap.mjs is not found in {}; set LOBELIA_TOOLS to its folder", folders.front().string())};
+}
+
+/// Says what is missing before anything is read.
+Status check_tools(const std::filesystem::path& folder) {
+    const auto node = run_program({"node", "--version"}, std::chrono::seconds(20));
+    if (!node || node->code != 0)
+        return Error{
+            "lobelia unwrap needs Node.js 18 or newer, and no \"node\" can be run; setup/packages node "
+            "installs it; or give the scene lightmap UVs in a modelling program (as TEXCOORD_1)"};
+    if (node->out.size() > 1 && std::atoi(node->out.c_str() + 1) < 18)
+        return Error{fmt::format("lobelia unwrap needs Node.js 18 or newer; \"node\" is {}",
+                                 node->out.substr(0, node->out.find('\n')))};
+    std::error_code code;
+    if (!std::filesystem::exists(folder / "node_modules" / "watlas", code))
+        return Error{fmt::format("the packages that unwrap.mjs uses are missing; run once: npm ci --prefix {}",
+                                 folder.string())};
+    return Done{};
+}
+
+Status check_options(const Options& options) {
+    if (!options.out.ends_with(".glb")) return Error{options.out + ": the output's name must end in .glb"};
+    if (options.layout == "object" && !options.texels_per_metre)
+        return Error{"--layout object needs --texels-per-metre: it decides how large each object's own square is"};
+    if (options.layout == "object" && options.size)
+        return Error{"--layout object takes no --size: each object has its own"};
+    return Done{};
+}
+
+/// Sees that the file can be read, that all of it has UVs in the unit square, and that nothing lies on anything else.
+Status check_result(const std::filesystem::path& file, const Options& options) {
+    GltfReadOptions read_options;
+    read_options.uv_set = options.uv_set;
+    const auto loaded = read_gltf(file, read_options);
+    if (!loaded) return Error{"the unwrapped scene cannot be read: " + loaded.error().message};
+    const World world = make_world(loaded->scene);
+    const std::size_t objects = loaded->scene.objects.size();
+    for (std::size_t i = 0; i < objects; ++i)
+        if (world.has_lightmap_uv[i] == 0)
+            return Error{fmt::format("object \"{}\" got no lightmap UVs", loaded->scene.objects[i].name)};
+    const bool shared = options.layout == "shared";
+    for (std::size_t i = 0; i < objects; i = shared ? objects : i + 1) {
+        const auto check = check_lightmap(world, i, shared ? objects : i + 1, shared ? 2048 : 256);
+        if (check.outside > 0) return Error{fmt::format("{} vertices got lightmap UVs outside [0, 1]", check.outside)};
+        // A curved chart may fold over by a sliver where it is flattened.
+        if (check.overlapping > check.covered / 1000)
+            return Error{fmt::format("charts overlap, first on object \"{}\"",
+                                     loaded->scene.objects[world.object[check.first_overlapping]].name)};
+    }
+    return Done{};
+}
+
+Status unwrap_verb(const Options& options) {
+    // Look at options, input and tools before the work.
+    if (const auto status = check_options(options); !status) return status;
+    const auto input = read_gltf(options.in);
+    if (!input) return input.error();
+    const auto folder = script_folder();
+    if (!folder) return folder.error();
+    if (const auto status = check_tools(*folder); !status) return status;
+
+    // Run the script on a file in passing.
+    const auto passing = TemporaryFolder::make();
+    if (!passing) return passing.error();
+    const auto file = passing->path() / "unwrapped.glb";
+    nlohmann::json arguments = {{"layout", options.layout}, {"padding", options.padding}, {"uvSet", options.uv_set}};
+    arguments["size"] = options.size ? nlohmann::json(*options.size) : nlohmann::json();
+    arguments["texelsPerMetre"] =
+        options.texels_per_metre ? nlohmann::json(*options.texels_per_metre) : nlohmann::json();
+    const std::string script = (*folder / "unwrap.mjs").string();
+    const std::string in = std::filesystem::absolute(options.in).string();
+    const auto finished =
+        run_program({"node", script, in, file.string(), arguments.dump()}, std::chrono::seconds(options.timeout));
+    if (!finished) return Error{options.in + ": " + finished.error().message};
+    if (finished->code != 0) {
+        const std::string& said = finished->err;
+        return Error{fmt::format("{}: {}", options.in, said.substr(0, said.find_last_not_of(" \n") + 1))};
+    }
+
+    // Check what came out, and only then write it.
+    if (const auto status = check_result(file, options); !status)
+        return Error{options.in + ": " + status.error().message};
+    const auto bytes = read_file(file, k_most_bytes);
+    if (!bytes) return bytes.error();
+    if (const auto status = write_file_atomically(options.out, *bytes); !status) return status;
+    const auto result = nlohmann::json::parse(finished->out, nullptr, false);
+    if (!result.is_object()) return Done{};
+    const auto size = result.value("size", 0);
+    fmt::print("{} objects, {} charts, {:.4g} texels per metre", result.value("objects", 0), result.value("charts", 0),
+               result.value("density", 0.0));
+    if (options.layout == "shared") fmt::print(" on a page of {0} x {0}: bake with --size {0}x{0}", size);
+    fmt::print("\n");
+    return Done{};
+}
+
+}  // namespace
+
+Verb add_unwrap(CLI::App& app) {
+    auto options = std::make_shared<Options>();
+    CLI::App* command = app.add_subcommand("unwrap", "Give a glTF scene lightmap UVs (needs Node.js)");
+    command->add_option("SCENE", options->in, "A .glb or .gltf file")->required();
+    command->add_option("-o,--output", options->out, "The file to write, .glb")->required();
+    command
+        ->add_option("--layout", options->layout,
+                     "shared: all objects in one square; object: each has its own, for bakes on several pages")
+        ->check(CLI::IsMember({"shared", "object"}))
+        ->capture_default_str();
+    command
+        ->add_option("--texels-per-metre", options->texels_per_metre,
+                     "Density (default: as dense as fits a page of --size)")
+        ->check(number_in(1e-3, 1e5));
+    command
+        ->add_option("--size", options->size, "Texels of a side of the page (default: 1024, or what the density needs)")
+        ->check(CLI::Range(16u, 16384u));
+    command->add_option("--padding", options->padding, "Texels between charts")
+        ->check(CLI::Range(0u, 64u))
+        ->capture_default_str();
+    command->add_option("--uv-set", options->uv_set, "Write TEXCOORD_<this>")
+        ->check(CLI::Range(std::size_t{0}, std::size_t{7}))
+        ->capture_default_str();
+    command->add_option("--timeout", options->timeout, "Give up after so many seconds")
+        ->check(CLI::Range(1u, 1000000u))
+        ->capture_default_str();
+    return {command, [options] { return unwrap_verb(*options); }};
+}
+
+}  // namespace lobelia::cli

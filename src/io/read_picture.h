@@ -1,0 +1,26 @@
+// 8-bit pictures for textures: PNG and JPEG. Safe on any bytes.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "lobelia/result.h"
+
+namespace lobelia {
+
+/// Red, green, blue, alpha as stored (no curve is undone), row by row from the top left.
+struct PictureRgba8 {
+    std::size_t width = 0;
+    std::size_t height = 0;
+    std::vector<std::array<std::uint8_t, 4>> texels;
+};
+
+/// Decodes a PNG or JPEG file of at most `most_pixels`; the content decides which. Grey becomes R = G = B, missing
+/// alpha 255, 16 bits their upper 8. Errors begin with `name` and say what the bytes are where that can be told.
+[[nodiscard]] Result<PictureRgba8> read_picture_rgba8(std::span<const std::byte> bytes, std::string_view name,
+                                                      std::size_t most_pixels);
+
+}  // namespace lobelia

@@ -1,0 +1,123 @@
+// Files that are written whole or not at all, by POSIX calls: streams of C++ cannot tell why a write failed.
+#include "io/staged_file.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <optional>
+#include <system_error>
+
+namespace lobelia {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A new file of the folder of `path` under a name that no other process or thread has, made by `create(name)`, which
+/// tells whether it could. Files that are staged at the same time differ in the hash of their names.
+template <class Create>
+std::optional<fs::path> create_named_beside(const fs::path& path, const Create& create) {
+    constexpr int k_attempts = 1000;
+    const std::size_t name = fs::hash_value(path.filename());
+    for (int i = 0; i < k_attempts; ++i) {
+        fs::path candidate = path.parent_path() / fmt::format(".lobelia-{}-{:x}-{}.tmp", ::getpid(), name, i);
+        if (create(candidate)) return candidate;
+        if (errno != EEXIST) return std::nullopt;
+    }
+    return std::nullopt;
+}
+
+/// The end of a chain of links, which need not exist; an error where links lead in a circle.
+Result<fs::path> followed(fs::path path) {
+    constexpr int k_most_links = 40;
+    for (int i = 0; i < k_most_links; ++i) {
+        std::error_code code;
+        if (!fs::is_symlink(fs::symlink_status(path, code))) return path;
+        const fs::path target = fs::read_symlink(path, code);
+        if (code) return io::write_failure(path, code.value());
+        path = path.parent_path() / target;
+    }
+    return io::write_failure(path, ELOOP);
+}
+
+}  // namespace
+
+StagedFile::StagedFile(fs::path target, io::Descriptor descriptor, fs::path temporary)
+    : target_(std::move(target)), descriptor_(std::move(descriptor)), temporary_(std::move(temporary)) {}
+
+StagedFile::StagedFile(StagedFile&& other) noexcept
+    : target_(std::move(other.target_)),
+      descriptor_(std::move(other.descriptor_)),
+      temporary_(std::exchange(other.temporary_, {})) {}
+
+StagedFile::~StagedFile() {
+    if (!temporary_.empty()) ::unlink(temporary_.c_str());
+}
+
+Result<StagedFile> StagedFile::create(const fs::path& path) {
+    // Find what it will replace.
+    if (path.empty()) return Error{"a file name is missing"};
+    const Result<fs::path> target = followed(path);
+    if (!target) return target.error();
+    struct stat old {};
+    const bool replaces = ::stat(target->c_str(), &old) == 0;
+    if (replaces && S_ISDIR(old.st_mode)) return io::write_failure(path, EISDIR);
+    if (replaces && !S_ISREG(old.st_mode)) return Error{path.string() + ": cannot be replaced: not a regular file"};
+
+    // Open a file without a name if the system can do that there, else one with a name of its own.
+    const fs::path folder = target->has_parent_path() ? target->parent_path() : fs::path(".");
+    int opened = ::open(folder.c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, 0666);
+    std::optional<fs::path> temporary = fs::path();
+    if (opened < 0 || ::access("/proc/self/fd", X_OK) != 0) {
+        if (opened >= 0) ::close(opened);
+        temporary = create_named_beside(*target, [&](const fs::path& candidate) {
+            opened = ::open(candidate.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+            return opened >= 0;
+        });
+        if (!temporary) return io::write_failure(path, errno);
+    }
+    StagedFile staged(*target, io::Descriptor(opened), *temporary);
+    if (replaces && ::fchmod(opened, old.st_mode & 0777) != 0) return io::write_failure(path, errno);
+    return staged;
+}
+
+Status StagedFile::write(std::span<const std::byte> bytes) {
+    if (!io::write_all(descriptor_, bytes)) return io::write_failure(target_, errno);
+    return Done{};
+}
+
+Status StagedFile::seek(std::uint64_t position) {
+    if (::lseek(descriptor_.get(), static_cast<off_t>(position), SEEK_SET) < 0)
+        return io::write_failure(target_, errno);
+    return Done{};
+}
+
+Status StagedFile::flush() {
+    if (::fsync(descriptor_.get()) != 0) return io::write_failure(target_, errno);
+    return Done{};
+}
+
+Status StagedFile::close() {
+    if (temporary_.empty()) {
+        const std::string self = fmt::format("/proc/self/fd/{}", descriptor_.get());
+        const auto named = create_named_beside(target_, [&](const fs::path& name) {
+            return ::linkat(AT_FDCWD, self.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0;
+        });
+        if (!named) return io::write_failure(target_, errno);
+        temporary_ = *named;
+    }
+    if (!descriptor_.close()) return io::write_failure(target_, errno);
+    return Done{};
+}
+
+Status StagedFile::commit() {
+    if (Status status = close(); !status) return status;
+    if (::rename(temporary_.c_str(), target_.c_str()) != 0) return io::write_failure(target_, errno);
+    temporary_.clear();
+    return Done{};
+}
+
+}  // namespace lobelia

@@ -1,0 +1,46 @@
+// Storages: ways to keep coefficients in fewer bytes, with what each costs in accuracy.
+#pragma once
+
+#include "lobelia/encode/encoder.h"
+#include "lobelia/pack/texture_layout.h"
+#include "lobelia/result.h"
+
+namespace lobelia {
+
+/// What a storage may count on in a codec's coefficients.
+struct CoefficientTraits {
+    std::size_t count = 0;
+    bool non_negative = false;       ///< every coefficient is >= 0
+    bool colours = true;             ///< each is a colour, whose chroma varies less than its luma
+    std::vector<float> lead_bounds;  ///< |c_i| <= lead_bounds[i] c_0 for light that is >= 0; empty where nothing bounds
+};
+
+[[nodiscard]] CoefficientTraits coefficient_traits(const Encoder& encoder);
+
+/// A way to store coefficients; all of it is data.
+struct Storage {
+    /// What coefficients must be for it.
+    enum class Suits { any, non_negative, colours, bounded_by_lead };
+    std::string_view name, description;
+    Suits suits = Suits::any;
+    ErrorBound bound;  ///< of the coefficients that are read back
+    TextureLayout (*layout)(const CoefficientTraits&) = nullptr;
+};
+
+/// THE list (pack/storages.cpp).
+[[nodiscard]] std::span<const Storage> storages();
+[[nodiscard]] bool suits(const Storage& storage, const CoefficientTraits& traits);
+/// By name; the error of an unknown one lists the nearest.
+[[nodiscard]] Result<const Storage*> find_storage(std::string_view name);
+
+/// What `storage` may be off by at most, by its bound, for each value of `coefficients`, into planes of the same
+/// shape; HUGE_VALF where a value is outside of what it can hold: below 0 for formats without a sign, or beyond its
+/// lead's bound.
+void allowed_error(const Storage& storage, const CoefficientTraits& traits, const CoefficientPlanes& coefficients,
+                   const MutableCoefficientPlanes& out);
+
+/// The coefficients of one texel or probe as they come back from storage.
+[[nodiscard]] std::vector<Rgb> stored_and_read(const Storage& storage, const CoefficientTraits& traits,
+                                               std::span<const Rgb> c);
+
+}  // namespace lobelia

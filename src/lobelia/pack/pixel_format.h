@@ -1,0 +1,83 @@
+// Pixel formats: how the channels of texels become bytes and back, and how far off that is at most.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "lobelia/planes.h"
+
+namespace lobelia {
+
+enum class PixelFormat : std::uint8_t {
+    r32f,
+    rg32f,
+    rgba32f,
+    r16f,
+    rg16f,
+    rgba16f,
+    r8,
+    rg8,
+    rgba8,
+    rgb10a2,
+    rgb9e5,
+    rgbe8,
+    rgbm8,
+    logluv32,
+    bc6h_unsigned,
+    bc6h_signed,
+};
+
+/// The largest error of storing v: relative m + of_texture t + spread s + absolute.
+struct ErrorBound {
+    /// What `relative` is a share of, m: the stored value alone; the largest magnitude among what is stored with it,
+    /// of a texel or of a coefficient's three channels; or the largest magnitude of the leading coefficient, times
+    /// what that bounds this one by.
+    enum class Of { value, together, lead };
+    double relative = 0;
+    Of of = Of::value;
+    double absolute = 0;     ///< beneath what the format can tell from 0
+    double of_texture = 0;   ///< share of t, the largest magnitude in the texture
+    double spread = 0;       ///< share of s, the largest difference, in any channel, within the texels that share data
+    std::size_t shared = 1;  ///< those are squares of this many texels a side
+};
+
+struct FormatInfo {
+    std::string_view name;
+    std::size_t channels;     ///< 1 to 4
+    std::size_t block;        ///< texels along one side of a block, 1 or 4
+    std::size_t block_bytes;  ///< of one block
+    std::uint32_t vk_format;  ///< VkFormat, as KTX 2 files name it; what has none of its own is R8G8B8A8_UNORM
+    double lowest, highest;   ///< what it can hold
+    ErrorBound bound;         ///< within these limits
+};
+
+[[nodiscard]] const FormatInfo& info(PixelFormat format);
+
+/// Bytes of a width x height texture; parts of blocks count as whole ones.
+[[nodiscard]] std::size_t byte_size(PixelFormat format, std::size_t width, std::size_t height);
+
+/// One pointer to floats for each channel of a texture, row by row.
+using ChannelPointers = std::span<const float* const>;
+using MutableChannelPointers = std::span<float* const>;
+
+/// Encodes width x height texels; `out` has byte_size() bytes. Values beyond the format's limits are cut to them; what
+/// is not finite gives an unspecified value. Rows of blocks start at multiples of 4, and what a block has too much
+/// repeats the last column and row. Bytes are in the order in which graphics interfaces upload them, little-endian.
+void encode_texels(PixelFormat format, std::size_t width, std::size_t height, ChannelPointers channels,
+                   std::span<std::byte> out);
+
+/// The inverse.
+void decode_texels(PixelFormat format, std::size_t width, std::size_t height, std::span<const std::byte> bytes,
+                   MutableChannelPointers channels);
+
+/// The factor by which values up to `largest` are divided before they are stored in `format`, and multiplied on
+/// reading: a power of two. It is 1 where the format can hold them, but for formats whose steps are equal (rgbm8),
+/// which want all of [0, 1]. At most 2^127.
+[[nodiscard]] float storing_scale(PixelFormat format, float largest);
+
+/// The largest magnitude of `count` values.
+[[nodiscard]] float largest_magnitude(const float* values, std::size_t count);
+
+}  // namespace lobelia

@@ -1,0 +1,241 @@
+// Packs and unpacks coefficients as a layout says.
+#include "lobelia/pack/texture_layout.h"
+
+#include <array>
+#include <cmath>
+
+namespace lobelia {
+namespace {
+
+using Form = StoredChannel::Form;
+using Texture = TextureLayout::Texture;
+
+/// Texels that are prepared and encoded at a time, so that they stay in the cache between the two.
+constexpr std::size_t k_strip = 4096;
+
+/// Shares of r, g, b in a component, and of a component in r, g, b.
+struct Shares {
+    float in[3], out[3];
+};
+constexpr std::array<Shares, 6> k_shares = {{
+    {{1, 0, 0}, {1, 0, 0}},
+    {{0, 1, 0}, {0, 1, 0}},
+    {{0, 0, 1}, {0, 0, 1}},
+    {{0.25f, 0.5f, 0.25f}, {1, 1, 1}},
+    {{0.5f, 0, -0.5f}, {1, 0, -1}},
+    {{-0.25f, 0.5f, -0.25f}, {-1, 1, -1}},
+}};
+
+const Shares& shares_of(Component component) { return k_shares[static_cast<std::size_t>(component)]; }
+bool is_rgb(Component component) { return component <= Component::b; }
+std::size_t rgb_index(Component component) { return static_cast<std::size_t>(component); }
+
+std::size_t divided(std::size_t size, std::size_t subsampling) { return (size + subsampling - 1) / subsampling; }
+
+/// Whether a channel is a plane as it is.
+bool is_plane(const StoredChannel& channel, const Texture& texture, float scale) {
+    return is_rgb(channel.component) && channel.form == Form::value && channel.scale == 1 && channel.offset == 0 &&
+           texture.subsampling == 1 && scale == 1;
+}
+
+/// The leading coefficient as it will be read back.
+using Lead = std::array<std::vector<float>, 3>;
+
+/// Fills rows of a texture with what a channel stores.
+class ChannelSource {
+  public:
+    ChannelSource(const CoefficientPlanes& planes, const Texture& texture, const Lead& lead, float scale)
+        : planes_(planes), texture_(texture), lead_(lead), inverse_scale_(1 / scale) {}
+
+    void fill(const StoredChannel& channel, std::size_t y, std::size_t rows, float* out) const {
+        const std::size_t width = divided(planes_.width, texture_.subsampling);
+        for (std::size_t row = 0; row < rows; ++row) {
+            float* to = out + row * width;
+            if (texture_.subsampling == 1)
+                fill_row(channel, (y + row) * planes_.width, planes_.width, to);
+            else
+                fill_mean(channel, y + row, to);
+            for (std::size_t x = 0; x < width; ++x) to[x] = to[x] * channel.scale + channel.offset;
+        }
+    }
+
+  private:
+    /// Values of a component, or ratios, from texel `begin` on.
+    void fill_row(const StoredChannel& channel, std::size_t begin, std::size_t count, float* out) const {
+        const float* const* rgb = planes_.planes.data() + 3 * channel.coefficient;
+        if (!is_rgb(channel.component)) {
+            const float* s = shares_of(channel.component).in;
+            const float *r = rgb[0] + begin, *g = rgb[1] + begin, *b = rgb[2] + begin;
+            for (std::size_t i = 0; i < count; ++i) out[i] = (s[0] * r[i] + s[1] * g[i] + s[2] * b[i]) * inverse_scale_;
+            return;
+        }
+        const float* value = rgb[rgb_index(channel.component)] + begin;
+        if (channel.form == Form::value) {
+            for (std::size_t i = 0; i < count; ++i) out[i] = value[i] * inverse_scale_;
+            return;
+        }
+        const float* lead = lead_[rgb_index(channel.component)].data() + begin;
+        for (std::size_t i = 0; i < count; ++i) {
+            const float divisor = lead[i] != 0 ? lead[i] : HUGE_VALF;
+            out[i] = value[i] / divisor;
+        }
+    }
+
+    /// Means of squares of two by two texels; at odd ends of what there is.
+    void fill_mean(const StoredChannel& channel, std::size_t y, float* out) const {
+        const std::size_t width = planes_.width;
+        std::vector<float> rows[2];
+        for (std::size_t k = 0; k < 2; ++k) {
+            rows[k].resize(width);
+            fill_row(channel, std::min(2 * y + k, planes_.height - 1) * width, width, rows[k].data());
+        }
+        for (std::size_t x = 0; x < width; x += 2) {
+            const std::size_t right = std::min(x + 1, width - 1);
+            out[x / 2] = 0.25f * (rows[0][x] + rows[0][right] + rows[1][x] + rows[1][right]);
+        }
+    }
+
+    const CoefficientPlanes& planes_;
+    const Texture& texture_;
+    const Lead& lead_;
+    float inverse_scale_;
+};
+
+/// The largest magnitude of what a texture is to hold, before its scale; an upper bound for luma and chroma.
+float largest_of(const Texture& texture, const CoefficientPlanes& planes) {
+    float largest = 0;
+    for (const StoredChannel& channel : texture.channels) {
+        if (channel.form == Form::ratio) continue;
+        for (std::size_t k = 0; k < 3; ++k)
+            if (shares_of(channel.component).in[k] != 0)
+                largest =
+                    std::max(largest, largest_magnitude(planes.planes[3 * channel.coefficient + k], planes.size()));
+    }
+    return largest;
+}
+
+PackedTexture pack_texture(const Texture& texture, const CoefficientPlanes& planes, const Lead& lead) {
+    const FormatInfo& format = info(texture.format);
+    PackedTexture packed{texture.name,
+                         texture.format,
+                         divided(planes.width, texture.subsampling),
+                         divided(planes.height, texture.subsampling),
+                         storing_scale(texture.format, largest_of(texture, planes)),
+                         {}};
+    packed.data.resize(byte_size(texture.format, packed.width, packed.height));
+    const ChannelSource source(planes, texture, lead, packed.scale);
+
+    // Prepare a strip of rows, whole blocks of them, and encode it.
+    const std::size_t strip = std::max<std::size_t>(1, k_strip / packed.width / format.block) * format.block;
+    std::vector<std::vector<float>> prepared(format.channels);
+    std::vector<const float*> channels(format.channels);
+    for (std::size_t y = 0; y < packed.height; y += strip) {
+        const std::size_t rows = std::min(strip, packed.height - y);
+        for (std::size_t k = 0; k < format.channels; ++k) {
+            const bool used = k < texture.channels.size();
+            if (used && is_plane(texture.channels[k], texture, packed.scale)) {
+                const StoredChannel& channel = texture.channels[k];
+                channels[k] = planes.planes[3 * channel.coefficient + rgb_index(channel.component)] + y * packed.width;
+                continue;
+            }
+            prepared[k].resize(rows * packed.width);
+            if (used) source.fill(texture.channels[k], y, rows, prepared[k].data());
+            channels[k] = prepared[k].data();
+        }
+        encode_texels(
+            texture.format, packed.width, rows, channels,
+            std::span(packed.data)
+                .subspan(byte_size(texture.format, packed.width, y), byte_size(texture.format, packed.width, rows)));
+    }
+    return packed;
+}
+
+/// Puts what a channel of a texture gives back where it belongs. Luma comes before chroma, and both add up.
+void unpack_channel(const StoredChannel& channel, const Texture& texture, const PackedTexture& packed,
+                    const float* decoded, const MutableCoefficientPlanes& out) {
+    const Shares& shares = shares_of(channel.component);
+    const float inverse = 1 / channel.scale;
+    for (std::size_t k = 0; k < 3; ++k) {
+        if (shares.out[k] == 0) continue;
+        const bool adds = channel.component > Component::luma;
+        const float* lead = out.planes[k];
+        float* plane = out.planes[3 * channel.coefficient + k];
+        for (std::size_t y = 0; y < out.height; ++y)
+            for (std::size_t x = 0; x < out.width; ++x) {
+                const std::size_t i = y * out.width + x;
+                const std::size_t from =
+                    texture.subsampling == 1 ? i : y / texture.subsampling * packed.width + x / texture.subsampling;
+                float value = (decoded[from] * packed.scale - channel.offset) * inverse * shares.out[k];
+                if (channel.form == Form::ratio) value *= lead[i];
+                plane[i] = adds ? plane[i] + value : value;
+            }
+    }
+}
+
+void unpack_texture(const Texture& texture, const PackedTexture& packed, const MutableCoefficientPlanes& out) {
+    const FormatInfo& format = info(texture.format);
+    assert(packed.format == texture.format && packed.width == divided(out.width, texture.subsampling) &&
+           packed.height == divided(out.height, texture.subsampling));
+    std::vector<std::vector<float>> decoded(format.channels);
+    std::vector<float*> channels(format.channels);
+    const auto goes_straight = [&](std::size_t k) {
+        return k < texture.channels.size() && is_plane(texture.channels[k], texture, packed.scale);
+    };
+    for (std::size_t k = 0; k < format.channels; ++k) {
+        if (goes_straight(k)) {
+            channels[k] = out.planes[3 * texture.channels[k].coefficient + rgb_index(texture.channels[k].component)];
+        } else {
+            decoded[k].resize(packed.width * packed.height);
+            channels[k] = decoded[k].data();
+        }
+    }
+    decode_texels(texture.format, packed.width, packed.height, packed.data, channels);
+    for (std::size_t k = 0; k < texture.channels.size(); ++k)
+        if (!goes_straight(k)) unpack_channel(texture.channels[k], texture, packed, decoded[k].data(), out);
+}
+
+bool has_ratios(const Texture& texture) {
+    return !texture.channels.empty() && texture.channels.front().form == Form::ratio;
+}
+
+/// The leading coefficient as the textures packed so far give it back; their other coefficients are of no interest.
+Lead read_lead(const TextureLayout& layout, std::span<const PackedTexture> packed, const CoefficientPlanes& planes) {
+    Lead lead;
+    for (auto& channel : lead) channel.resize(planes.size());
+    std::vector<float> rest(planes.size());
+    MutableCoefficientPlanes out(planes.width, planes.height,
+                                 std::vector<float*>(3 * layout.coefficients, rest.data()));
+    for (std::size_t k = 0; k < 3; ++k) out.planes[k] = lead[k].data();
+    for (std::size_t i = 0; i < packed.size(); ++i) unpack_texture(layout.textures[i], packed[i], out);
+    return lead;
+}
+
+}  // namespace
+
+double bytes_per_texel(const TextureLayout& layout) {
+    double bytes = 0;
+    for (const Texture& texture : layout.textures) {
+        const FormatInfo& format = info(texture.format);
+        const std::size_t side = format.block * texture.subsampling;
+        bytes += static_cast<double>(format.block_bytes) / static_cast<double>(side * side);
+    }
+    return bytes;
+}
+
+std::vector<PackedTexture> pack(const TextureLayout& layout, const CoefficientPlanes& coefficients) {
+    assert(coefficients.planes.size() == 3 * layout.coefficients && coefficients.size() > 0);
+    std::vector<PackedTexture> packed;
+    Lead lead;
+    for (const Texture& texture : layout.textures) {
+        if (has_ratios(texture) && lead[0].empty()) lead = read_lead(layout, packed, coefficients);
+        packed.push_back(pack_texture(texture, coefficients, lead));
+    }
+    return packed;
+}
+
+void unpack(const TextureLayout& layout, std::span<const PackedTexture> textures, const MutableCoefficientPlanes& out) {
+    assert(textures.size() == layout.textures.size() && out.planes.size() == 3 * layout.coefficients);
+    for (std::size_t i = 0; i < textures.size(); ++i) unpack_texture(layout.textures[i], textures[i], out);
+}
+
+}  // namespace lobelia

@@ -1,0 +1,47 @@
+// What the page of a bake shows of a bake that is in memory.
+#include <algorithm>
+
+#include "report/bake_page.h"
+
+namespace lobelia {
+
+BakePage bake_page_of(const Scene& scene, const Baker& baker, const Bake& bake) {
+    BakePage page;
+    page.title = scene.name;
+    page.settings = bake_settings(bake.manifest.options, bake.pages.size());
+    page.statistics = baker.statistics();
+    page.light = {bake.pages, baker.atlas().placements(), bake.layout(), baker.codec(), baker.in_tangent_frame()};
+    if (baker.codec() != nullptr) page.codec_irradiance = texel_irradiance(page.light, bake.normals);
+    page.object_of_chart = objects_of_charts(baker.atlas());
+    page.objects = object_figures(scene, page.light, page.object_of_chart, page.codec_irradiance);
+    return page;
+}
+
+std::optional<std::vector<BakeView>> render_views(const Scene& scene, const BakedLight& light, const PathOptions& paths,
+                                                  const RenderOptions& options, std::size_t most) {
+    const World world = make_world(scene);
+    PathOptions with_seen_surface = paths;
+    with_seen_surface.bounces += 1;
+    const PathTracer tracer(scene, world, with_seen_surface);
+    std::vector<Camera> cameras = scene.cameras;
+    if (cameras.empty()) cameras.push_back(default_camera(world));
+    cameras.resize(std::min(cameras.size(), most));
+
+    // The truth takes nearly all of the time.
+    std::vector<BakeView> views;
+    for (const Camera& camera : cameras) {
+        RenderOptions of_view = options;
+        const auto before = static_cast<double>(views.size()), all = static_cast<double>(cameras.size());
+        of_view.progress = [&](double done) {
+            if (options.progress) options.progress((before + done) / all);
+        };
+        auto truth = render_paths(tracer, camera, of_view);
+        of_view.progress = {};
+        auto baked = truth ? render_bake(tracer, light, camera, of_view) : std::nullopt;
+        if (!baked) return std::nullopt;
+        views.push_back({camera.name, *std::move(baked), *std::move(truth), options.samples});
+    }
+    return views;
+}
+
+}  // namespace lobelia

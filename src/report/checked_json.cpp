@@ -1,0 +1,39 @@
+// Parses JSON, and says where it is broken.
+#include "report/checked_json.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+namespace lobelia {
+namespace {
+
+/// The reason out of the library's message, which has its own error codes before and its name for the place after.
+std::string reason(std::string message) {
+    const auto place = message.find(": syntax error");
+    if (place != std::string::npos) message.erase(0, place + 2);
+    // Whatever was read last may be anything: keep the line short and printable.
+    constexpr std::size_t most = 160;
+    for (char& c : message)
+        if (static_cast<unsigned char>(c) < 0x20 || static_cast<unsigned char>(c) >= 0x7f) c = '?';
+    return message.size() <= most ? message : message.substr(0, most) + "...";
+}
+
+}  // namespace
+
+Result<nlohmann::json> checked_json(std::string_view text, const std::string& name) {
+    try {
+        return nlohmann::json::parse(text);
+    } catch (const nlohmann::json::parse_error& error) {
+        const std::size_t byte = std::min<std::size_t>(error.byte, text.size());
+        const std::string_view before = text.substr(0, byte > 0 ? byte - 1 : 0);
+        const auto line = 1 + std::count(before.begin(), before.end(), '\n');
+        const std::size_t line_begin = before.rfind('\n') == std::string_view::npos ? 0 : before.rfind('\n') + 1;
+        return Error{name + ": broken JSON at byte " + std::to_string(error.byte) + " (line " + std::to_string(line) +
+                     ", column " + std::to_string(before.size() - line_begin + 1) + "): " + reason(error.what())};
+    } catch (const nlohmann::json::exception& error) {
+        // A number that no double can hold.
+        return Error{name + ": broken JSON: " + reason(error.what())};
+    }
+}
+
+}  // namespace lobelia

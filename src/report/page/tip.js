@@ -1,0 +1,17 @@
+// The figures beside the pointer.
+"use strict";
+
+/// Shows lines of text near the pointer, within the window.
+function show_tip(event, lines) {
+    const tip = by_id("tip");
+    tip.replaceChildren(...lines.map((line) => element("div", line)));
+    tip.hidden = false;
+    const left = Math.min(event.clientX + 16, innerWidth - tip.offsetWidth - 8);
+    const below = event.clientY + 20;
+    const above = event.clientY - tip.offsetHeight - 12;
+    tip.style.transform = `translate(${left}px, ${below + tip.offsetHeight > innerHeight ? above : below}px)`;
+}
+
+function hide_tip() {
+    by_id("tip").hidden = true;
+}

@@ -1,0 +1,59 @@
+// Small glTF files, made in memory for the tests and as seeds for the fuzzer.
+#pragma once
+
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lobelia {
+
+/// JSON and a binary buffer, which becomes the file's only one.
+struct GltfFile {
+    nlohmann::json root = {{"asset", {{"version", "2.0"}}}, {"scene", 0}, {"scenes", {{{"nodes", {0}}}}}};
+    std::string binary;
+
+    /// The index of a new bufferView of these bytes.
+    std::size_t view(std::string_view bytes);
+    template <class T>
+    std::size_t view(const std::vector<T>& values) {
+        return view({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)});
+    }
+    /// The index of a new accessor of these values, `components` each.
+    template <class T>
+    std::size_t accessor(const std::vector<T>& values, std::size_t components, bool normalized = false) {
+        return accessor(view(values), values.size() / components, component_type(T{}), components, normalized);
+    }
+    std::size_t accessor(std::size_t view, std::size_t count, int component_type, std::size_t components,
+                         bool normalized = false);
+    /// Appends to an array of the root, and returns the index there.
+    std::size_t add(const char* array, nlohmann::json entry);
+
+    /// As text with the buffer as a data URI, and in binary.
+    [[nodiscard]] std::string gltf() const;
+    [[nodiscard]] std::string glb() const;
+
+    static int component_type(std::int8_t) { return 5120; }
+    static int component_type(std::uint8_t) { return 5121; }
+    static int component_type(std::int16_t) { return 5122; }
+    static int component_type(std::uint16_t) { return 5123; }
+    static int component_type(std::uint32_t) { return 5125; }
+    static int component_type(float) { return 5126; }
+};
+
+/// A square of two triangles on one node, in the xy plane from (0, 0) to (1, 1), facing +z, without a material.
+[[nodiscard]] GltfFile square_file();
+
+/// Much of what a file can hold: textures, all kinds of lights, instances, strips, sparse and quantised accessors.
+[[nodiscard]] GltfFile rich_file();
+
+/// The bytes of a PNG of 2 x 2 texels.
+[[nodiscard]] std::string small_png();
+
+[[nodiscard]] std::string base64(std::string_view bytes);
+
+/// The container around any JSON text and binary chunk.
+[[nodiscard]] std::string glb_of(std::string json, std::string binary);
+
+}  // namespace lobelia
