@@ -1,4 +1,4 @@
-// Writes a seed corpus: small valid files of every kind, into FOLDER/hdr, FOLDER/exr and FOLDER/ldr.
+// Writes a seed corpus: small valid files of every kind, into FOLDER/hdr, FOLDER/exr and so on.
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #define STB_IMAGE_WRITE_STATIC
 #if defined(__GNUC__)
@@ -14,6 +14,8 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "bake_files.h"
+#include "baker/output/probe_files.h"
 #include "gltf_files.h"
 #include "io/write_file.h"
 #include "io/write_image.h"
@@ -100,6 +102,17 @@ bool write_gltf_seeds(const std::filesystem::path& folder) {
            write(folder, "cornell.glb", encode_glb(cornell_scene()).value());
 }
 
+bool write_bake_seeds(const std::filesystem::path& folder) {
+    const Bake world = test::some_bake("sh1/moments/convolution"),
+               tangent = test::some_bake("sg12h/moments/exact", Frame::tangent);
+    Manifest textured = world.manifest;
+    textured.pages = {{"page-0.exr", {{"half", "page-0.ktx2", "half", {"c0", "c1"}}}}, {"page-1.exr", {}}};
+    Manifest plain = tangent.manifest;
+    plain.pages = textured.pages;
+    return write(folder, "bake", to_json_text(textured)) && write(folder, "plain", to_json_text(plain)) &&
+           write(folder, "probes", to_json_text(*world.probes, "probes.bin"));
+}
+
 }  // namespace
 
 int main(int count, char** arguments) {
@@ -108,8 +121,9 @@ int main(int count, char** arguments) {
         return 2;
     }
     const std::filesystem::path folder = arguments[1];
-    for (const char* kind : {"hdr", "exr", "ldr", "gltf"}) std::filesystem::create_directories(folder / kind);
+    for (const char* kind : {"hdr", "exr", "ldr", "gltf", "bake"}) std::filesystem::create_directories(folder / kind);
     const bool done = write_hdr_seeds(folder / "hdr") && write_exr_seeds(folder / "exr") &&
-                      write_ldr_seeds(folder / "ldr") && write_gltf_seeds(folder / "gltf");
+                      write_ldr_seeds(folder / "ldr") && write_gltf_seeds(folder / "gltf") &&
+                      write_bake_seeds(folder / "bake");
     return done ? 0 : 1;
 }

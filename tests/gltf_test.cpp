@@ -598,6 +598,21 @@ TEST(BadGltf, RequiredExtensionsNameTheRemedy) {
     EXPECT_EQ(required("KHR_mesh_quantization"), "read without an error");
 }
 
+/// Compressed without being required to be read: plain data is taken where there is any.
+TEST(BadGltf, CompressedDataWithoutAFallbackNamesTheRemedy) {
+    GltfFile file = square_file();
+    file.root["meshes"][0]["primitives"][0]["extensions"]["KHR_draco_mesh_compression"] = {{"bufferView", 0}};
+    EXPECT_EQ(error_of(file.glb()), "read without an error");
+    file.root["accessors"][0].erase("bufferView");
+    EXPECT_TRUE(has(error_of(file.glb()), "meshes[0].primitives[0]: KHR_draco_mesh_compression is not read"));
+
+    json root = square_file().root;
+    root["buffers"] =
+        json::array({{{"byteLength", 60}, {"extensions", {{"EXT_meshopt_compression", {{"fallback", true}}}}}}});
+    root["bufferViews"][0]["extensions"]["EXT_meshopt_compression"] = {{"buffer", 0}};
+    EXPECT_TRUE(has(error_of(root.dump()), "bufferViews[0]: EXT_meshopt_compression is not read"));
+}
+
 TEST(BadGltf, LimitsHoldBeforeAllocation) {
     GltfReadOptions options;
     options.most_triangles = 5;

@@ -200,8 +200,8 @@ async function main() {
   console.log(JSON.stringify({
     objects: objects.length,
     charts: results.reduce((sum, result) => sum + result.charts, 0),
-    size: Math.max(...results.map((result) => result.size)),
-    density: Math.min(...results.map((result) => result.density)),
+    size: results.reduce((most, result) => Math.max(most, result.size), 0),
+    density: results.reduce((least, result) => Math.min(least, result.density), Infinity),
   }));
 }
 

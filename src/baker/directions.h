@@ -9,7 +9,8 @@
 
 namespace lobelia {
 
-/// Two axes that make a right-handed frame with the unit vector z; the same as tangent_from_world.
+/// Two axes that make a right-handed frame with the unit vector z: any two, found quickly. They flip where z.z changes
+/// its sign; what is stored or averaged stands in tangent_from_world's frame instead.
 struct Axes {
     Vec3 x, y, z;
     explicit Axes(Vec3 normal) : z(normal) {
@@ -17,6 +18,7 @@ struct Axes {
         x = {1.0f + sign * normal.x * normal.x * a, sign * b, -sign * normal.x};
         y = {b, sign + normal.y * normal.y * a, -normal.y};
     }
+    explicit Axes(const Rotation& rows) : x(rows[0]), y(rows[1]), z(rows[2]) {}
     [[nodiscard]] Vec3 world(Vec3 v) const { return x * v.x + y * v.y + z * v.z; }
     [[nodiscard]] Vec3 local(Vec3 v) const { return {dot(x, v), dot(y, v), dot(z, v)}; }
 };

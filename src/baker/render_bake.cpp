@@ -5,6 +5,7 @@
 #include "baker/directions.h"
 #include "baker/render.h"
 #include "baker/render_tiles.h"
+#include "baker/texels.h"
 
 namespace lobelia {
 namespace {
@@ -103,7 +104,7 @@ BakedPoint BakeWorker::point(const Sight& sight, std::uint32_t of_ray) const {
     p.emission = view_->surfaces().emission(triangle, u, v);
 
     // Choose a direction for the base, which says how much the layer keeps from it, and one for the layer.
-    const Vec3 wo = Axes(at.normal).local(sight.start.direction * -1.0f);
+    const Vec3 wo = Axes(tangent_from_world(at.normal)).local(sight.start.direction * -1.0f);
     const std::uint32_t seed = tracer_->options().seed;
     const auto random = [&](std::uint32_t number) { return pair(sight.start.key, sight.start.sample, number, seed); };
     p.base = base_albedo(at.reflectance, wo, cosine_direction(random(k_base_direction)));
@@ -139,7 +140,7 @@ void BakeWorker::read(MutableColourView irradiance, MutableColourView mirrored) 
         const BakedPoint& p = points_[j];
         const Vec3 wi = p.mirrored == Vec3{} ? Vec3{0, 0, 1} : p.mirrored;
         set_entry(normals.view(), j, light_->in_tangent_frame ? Vec3{0, 0, 1} : p.normal);
-        set_entry(directions.view(), j, light_->in_tangent_frame ? wi : Axes(p.normal).world(wi));
+        set_entry(directions.view(), j, light_->in_tangent_frame ? wi : Axes(tangent_from_world(p.normal)).world(wi));
     }
     reader_->irradiance(block_, normals, irradiance);
     reader_->radiance(block_, directions, mirrored);

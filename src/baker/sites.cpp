@@ -22,16 +22,16 @@ float SiteSummary::relative_error() const {
 }
 
 SiteSummary summary(std::span<const float, SiteLayout::k_record> record, std::uint32_t samples_per_pass) {
-    const float passes = record[SiteLayout::passes];
+    const float passes = record[SiteLayout::k_passes];
     if (!(passes > 0)) return {};
     SiteSummary result;
-    result.irradiance =
-        Rgb{record[SiteLayout::irradiance], record[SiteLayout::irradiance + 1], record[SiteLayout::irradiance + 2]} *
-        (1 / passes);
+    result.irradiance = Rgb{record[SiteLayout::k_irradiance], record[SiteLayout::k_irradiance + 1],
+                            record[SiteLayout::k_irradiance + 2]} *
+                        (1 / passes);
     const float mean = luminance(result.irradiance);
-    const float variance = std::max(0.0f, record[SiteLayout::squared] / passes - mean * mean);
+    const float variance = std::max(0.0f, record[SiteLayout::k_squared] / passes - mean * mean);
     result.error = passes > 1 ? std::sqrt(variance / (passes - 1)) : std::numeric_limits<float>::infinity();
-    result.validity = 1 - record[SiteLayout::back_faces] / (passes * static_cast<float>(samples_per_pass));
+    result.validity = 1 - record[SiteLayout::k_back_faces] / (passes * static_cast<float>(samples_per_pass));
     return result;
 }
 
@@ -47,7 +47,7 @@ void SiteWorker::run(std::span<const Site> sites, const SiteLayout& layout, cons
         active_.clear();
         for (std::size_t i = begin; i < std::min(begin + k_batch, sites.size()); ++i) {
             const auto record = layout.record(state_of(i));
-            if (options.target_error && record[SiteLayout::passes] >= k_fewest_passes &&
+            if (options.target_error && record[SiteLayout::k_passes] >= k_fewest_passes &&
                 summary(record, options.samples.count).relative_error() < *options.target_error)
                 continue;
             Receiver receiver{{sites[i].positions.data(), sites[i].position_count}, sites[i].normal};
@@ -69,13 +69,13 @@ void SiteWorker::run(std::span<const Site> sites, const SiteLayout& layout, cons
             }
             const Gathered& gathered = buffer_.gathered(r);
             const auto record = layout.record(state);
-            record[SiteLayout::irradiance] += gathered.irradiance.r;
-            record[SiteLayout::irradiance + 1] += gathered.irradiance.g;
-            record[SiteLayout::irradiance + 2] += gathered.irradiance.b;
+            record[SiteLayout::k_irradiance] += gathered.irradiance.r;
+            record[SiteLayout::k_irradiance + 1] += gathered.irradiance.g;
+            record[SiteLayout::k_irradiance + 2] += gathered.irradiance.b;
             const float y = luminance(gathered.irradiance);
-            record[SiteLayout::squared] += y * y;
-            record[SiteLayout::passes] += 1;
-            record[SiteLayout::back_faces] += static_cast<float>(gathered.back_faces);
+            record[SiteLayout::k_squared] += y * y;
+            record[SiteLayout::k_passes] += 1;
+            record[SiteLayout::k_back_faces] += static_cast<float>(gathered.back_faces);
         }
     }
 }

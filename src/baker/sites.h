@@ -29,7 +29,7 @@ class SiteLayout {
     }
 
     /// Sums over passes, each of which gave one estimate E of the irradiance (Gathered::irradiance).
-    enum Record : std::size_t { irradiance, squared = irradiance + 3, passes, back_faces, k_record };
+    enum Record : std::size_t { k_irradiance, k_squared = k_irradiance + 3, k_passes, k_back_faces, k_record };
     [[nodiscard]] std::span<float, k_record> record(std::span<float> site) const {
         return site.subspan(encoder_floats_).first<k_record>();
     }

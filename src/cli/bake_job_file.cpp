@@ -56,7 +56,7 @@ struct SceneFields {
 }  // namespace
 
 void fields(auto& archive, SceneOptions& options) {
-    SceneFields by_type{archive};
+    SceneFields<std::remove_reference_t<decltype(archive)>> by_type{archive};
     visit_scene_fields(by_type, options);
 }
 

@@ -25,16 +25,6 @@ Status write_preflight(const Preflight& checked, const Baker& baker, const fs::p
     return write_into_folder(out, files);
 }
 
-Image to_image(const Image8& picture) {
-    Image image(picture.width, picture.height);
-    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
-        const std::uint8_t* rgb = &picture.rgb[3 * i];
-        image.pixels[i] =
-            Rgb{static_cast<float>(rgb[0]), static_cast<float>(rgb[1]), static_cast<float>(rgb[2])} * (1.0f / 255);
-    }
-    return image;
-}
-
 }  // namespace
 
 Preflight preflight_of(const Baker& baker, std::optional<TraceRate> rate) {
@@ -50,15 +40,7 @@ Result<std::string> job_page(const BakeJob& job, const Scene& scene, const Baker
                              const Preflight& checked, const std::atomic<bool>& stop) {
     BakePage page = bake_page_of(scene, baker, bake);
     page.warnings = warnings(checked, scene);
-    for (const auto& warning : page.warnings)
-        page.checks.push_back({PreflightCheck::Level::warning, "preflight", warning});
-    if (page.checks.empty())
-        page.checks.push_back({PreflightCheck::Level::good, "preflight", "Nothing to mend in the lightmap UVs."});
-    constexpr std::size_t most_side = 1024;
-    for (std::size_t p = 0; p < checked.pages; ++p)
-        page.preflight_pictures.push_back(
-            {fmt::format("page {}", p),
-             to_image(preflight_picture(checked, baker.atlas(), baker.texels(), p, most_side))});
+    add_preflight(page, checked, scene, baker.atlas(), baker.texels());
 
     RenderOptions pictures;
     pictures.threads = job.bake.threads;

@@ -62,6 +62,7 @@ Result<Image> render_scene(const Options& options, const Scene& scene) {
 Result<LoadedScene> scene_of(const Options& options, const Manifest& manifest) {
     const fs::path folder = bake_folder(options.scene.path);
     SceneOptions scene = options.scene;
+    scene.uv_set = SceneOptions().uv_set;
     scene.path = manifest.scene ? (folder / *manifest.scene).string() : manifest.scene_name;
     if (!scene.environment && manifest.environment) scene.environment = (folder / *manifest.environment).string();
     return load_scene(scene);

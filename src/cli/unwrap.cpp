@@ -81,7 +81,7 @@ Status check_result(const std::filesystem::path& file, const Options& options) {
     for (std::size_t i = 0; i < objects; i = shared ? objects : i + 1) {
         const auto check = check_lightmap(world, i, shared ? objects : i + 1, shared ? 2048 : 256);
         if (check.outside > 0) return Error{fmt::format("{} vertices got lightmap UVs outside [0, 1]", check.outside)};
-        // Charts are convex to within a texel's width at most: a few points may be doubly covered.
+        // A curved chart may fold over by a sliver where it is flattened.
         if (check.overlapping > check.covered / 1000)
             return Error{fmt::format("charts overlap, first on object \"{}\"",
                                      loaded->scene.objects[world.object[check.first_overlapping]].name)};

@@ -111,7 +111,8 @@ std::size_t factor_for(std::span<const Page> pages, std::size_t bytes_per_texel,
 constexpr std::size_t k_colour_bytes = 8, k_number_bytes = 3;
 
 void add_irradiance(LayerWriter& writer, const BakePage& bake, std::size_t factor) {
-    const auto& [pages, placements, layout, codec, tangent] = bake.light;
+    const auto& pages = bake.light.pages;
+    const auto& layout = bake.light.layout;
     const char* const group = "Irradiance";
     writer.add<Rgb>({{"name", "E"},
                      {"title", "Irradiance"},
@@ -135,7 +136,8 @@ void add_irradiance(LayerWriter& writer, const BakePage& bake, std::size_t facto
 }
 
 void add_quality(LayerWriter& writer, const BakePage& bake, std::size_t factor, std::vector<nlohmann::json>& layers) {
-    const auto& [pages, placements, layout, codec, tangent] = bake.light;
+    const auto& pages = bake.light.pages;
+    const auto& layout = bake.light.layout;
     const char* const group = "Quality";
     if (!bake.codec_irradiance.empty())
         layers.push_back({{"name", "difference"},
@@ -168,7 +170,8 @@ void add_quality(LayerWriter& writer, const BakePage& bake, std::size_t factor, 
 }
 
 void add_coefficients(LayerWriter& writer, const BakePage& bake, std::size_t factor) {
-    const auto& [pages, placements, layout, codec, tangent] = bake.light;
+    const auto& pages = bake.light.pages;
+    const auto& layout = bake.light.layout;
     for (std::size_t c = 0; c < layout.coefficients; ++c) {
         const std::string name = fmt::format("c{}", c);
         writer.add<Rgb>({{"name", name},

@@ -82,7 +82,7 @@ Json preflight_of(const BakePage& bake, std::map<std::string, Picture>& pictures
         pictures[name] = encode(bake.preflight_pictures[i].image);
         shown.push_back({{"title", bake.preflight_pictures[i].title}, {"name", name}});
     }
-    return {{"checks", std::move(checks)}, {"pictures", std::move(shown)}};
+    return {{"checks", std::move(checks)}, {"pictures", std::move(shown)}, {"density", bake.density}};
 }
 
 /// Mean luminance of E over the texels that were baked.

@@ -8,6 +8,7 @@
 #include "baker/bake.h"
 #include "baker/output/bake_folder.h"
 #include "baker/page_reader.h"
+#include "baker/preflight.h"
 #include "baker/render.h"
 #include "lobelia/image.h"
 
@@ -55,6 +56,7 @@ struct BakePage {
     std::vector<ObjectFigures> objects;              ///< in the scene's order, as object_figures gives them
     std::vector<PreflightCheck> checks;
     std::vector<PreflightPicture> preflight_pictures;
+    std::vector<std::pair<double, double>> density;  ///< texels per metre, from so many on: share of the area
 };
 
 /// What a reader wants to know of a bake's options.
@@ -76,6 +78,10 @@ struct BakePage {
 [[nodiscard]] std::optional<std::vector<BakeView>> render_views(const Scene& scene, const BakedLight& light,
                                                                 const PathOptions& paths, const RenderOptions& options,
                                                                 std::size_t most = 4);
+
+/// What preflight found: checks, the densities, a picture of each page.
+void add_preflight(BakePage& page, const Preflight& preflight, const Scene& scene, const Atlas& atlas,
+                   const TexelMap& map);
 
 struct BakePageOptions {
     std::size_t most_layer_bytes = std::size_t{24} << 20;  ///< of the lightmaps' pictures; larger ones are reduced

@@ -29,7 +29,6 @@ void append_word(std::string& bytes, std::size_t value) {
 
 GlbBuilder::GlbBuilder() {
     root_["asset"] = {{"version", "2.0"}, {"generator", "Lobelia"}};
-    // Arrays that are always there, so that an empty scene is a file, too.
     root_["scene"] = 0;
 }
 

@@ -166,10 +166,16 @@ Result<Bytes> view_bytes(const Document& document, int view, std::string_view pl
     if (v.buffer < 0 || static_cast<std::size_t>(v.buffer) >= document.buffers.size())
         return document.error(at, fmt::format("buffer {} of {}", v.buffer, document.buffers.size()));
     const Bytes buffer = document.buffers[static_cast<std::size_t>(v.buffer)];
+    for (const char* compression : {"EXT_meshopt_compression", "KHR_meshopt_compression"})
+        if (buffer.empty() && extension(v.extensions, compression)) return document.error(at, compressed(compression));
     if (v.byteOffset > buffer.size() || v.byteLength > buffer.size() - v.byteOffset)
         return document.error(
             at, fmt::format("bytes {} + {} of a buffer of {}", v.byteOffset, v.byteLength, buffer.size()));
     return buffer.subspan(v.byteOffset, v.byteLength);
+}
+
+std::string compressed(std::string_view extension) {
+    return fmt::format("{} is not read; decompress the file first: gltf-transform copy IN.glb OUT.glb", extension);
 }
 
 std::string short_name(const std::string& name) {

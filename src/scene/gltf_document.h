@@ -55,6 +55,9 @@ struct Document {
 /// The bytes of a buffer view; an error that names `place` where there is none, or it exceeds its buffer.
 [[nodiscard]] Result<Bytes> view_bytes(const Document& document, int view, std::string_view place);
 
+/// What is said of data that only an extension could decompress.
+[[nodiscard]] std::string compressed(std::string_view extension);
+
 /// A name, or the beginning of one that is no name but a burden: it may be asked for a million times.
 [[nodiscard]] std::string short_name(const std::string& name);
 

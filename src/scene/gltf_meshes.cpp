@@ -79,15 +79,20 @@ class MeshReader {
         return attributes;
     }
 
+    /// Compressed primitives may bring plain data, too, to fall back on.
+    [[nodiscard]] bool has_position_data(const tinygltf::Primitive& primitive) const {
+        const int position = attributes_of(primitive).position;
+        const auto& accessors = document_.model.accessors;
+        return position >= 0 && static_cast<std::size_t>(position) < accessors.size() &&
+               accessors[static_cast<std::size_t>(position)].bufferView >= 0;
+    }
+
     Status read_primitive(std::size_t p) {
         // Leave out what is no surface.
         const tinygltf::Primitive& primitive = source_.primitives[p];
         const std::string place = fmt::format("{}.primitives[{}]", place_, p);
-        for (const char* compression : {"KHR_draco_mesh_compression", "EXT_meshopt_compression"})
-            if (extension(primitive.extensions, compression) && primitive.attributes.empty())
-                return document_.error(place, fmt::format("{} is not read; decompress the file first: gltf-transform "
-                                                          "copy IN.glb OUT.glb",
-                                                          compression));
+        if (extension(primitive.extensions, "KHR_draco_mesh_compression") && !has_position_data(primitive))
+            return document_.error(place, compressed("KHR_draco_mesh_compression"));
         if (primitive.mode < 0 || primitive.mode > TINYGLTF_MODE_TRIANGLE_FAN)
             return document_.error(place + ".mode", fmt::format("{}", primitive.mode));
         if (!has_triangles(primitive.mode)) {

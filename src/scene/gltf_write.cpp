@@ -79,7 +79,8 @@ class Writer {
 
     Status write_object(std::size_t i) {
         const Object& object = scene_.objects[i];
-        json node = {{"mesh", mesh_of(i)}};
+        json node = json::object();
+        if (!scene_.meshes[object.mesh].triangles.empty()) node["mesh"] = mesh_of(i);
         if (!options_.object_extras.empty())
             if (const Status s = add_extras(node, options_.object_extras[i], object.name); !s) return s;
         add_node(std::move(node), object.name, object.world_from_object);

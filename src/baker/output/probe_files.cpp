@@ -136,19 +136,25 @@ Status write_probe_coefficients(StagedFile& file, const ProbeSet& probes) {
     return file.write(std::as_bytes(std::span(probes.coefficients)));
 }
 
-Result<ProbeSet> read_probes(const std::filesystem::path& path) {
-    const auto text = read_text(path, k_most_mebibytes);
-    if (!text) return text.error();
-    ProbeSet probes;
-    std::string binary_file;
+Result<ProbeDescription> probes_from_json(std::string_view text, const std::string& name) {
     try {
-        const nlohmann::json document = parse_json(*text, path.string());
-        binary_file = read_description(JsonPlace(document, path.string()), probes);
+        const nlohmann::json document = parse_json(text, name);
+        ProbeDescription result;
+        result.file = read_description(JsonPlace(document, name), result.probes);
+        return result;
     } catch (const JsonRefusal& refusal) {
         return Error{refusal.what()};
     }
-    if (const auto status = read_coefficients(path.parent_path() / binary_file, probes); !status) return status.error();
-    return probes;
+}
+
+Result<ProbeSet> read_probes(const std::filesystem::path& path) {
+    const auto text = read_text(path, k_most_mebibytes);
+    if (!text) return text.error();
+    auto description = probes_from_json(*text, path.string());
+    if (!description) return description.error();
+    if (auto status = read_coefficients(path.parent_path() / description->file, description->probes); !status)
+        return status.error();
+    return std::move(description->probes);
 }
 
 }  // namespace lobelia

@@ -46,7 +46,7 @@ ordered_json conventions(const Manifest& m) {
         {"irradiance", "E [W/m^2], not divided by pi"},
         {"axes", "right-handed, y up, metres"},
         {"directions", tangent ? "tangent frame: rows x, y, z of the formula, z the shading normal" : "world frame"},
-        {"tangent_frame", tangent ? ordered_json("duff-2017") : ordered_json()},
+        {"tangent_frame", tangent ? ordered_json("frisvad-2012 about (2, 3, 6) / 7") : ordered_json()},
         {"uv", "(0, 0) at the top left, texel centres at + 0.5"},
         {"described_in", "docs/conventions.md and docs/bake-format.md of Lobelia"}};
 }
@@ -106,6 +106,7 @@ std::string to_json_text(const Manifest& m) {
                                    {"objects", std::move(objects)},
                                    {"probes", or_null(m.probes)},
                                    {"options", all_fields(m.options)},
+                                   {"finish", m.finish},
                                    {"statistics", all_fields(m.statistics)}};
     return document.dump(1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }

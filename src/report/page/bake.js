@@ -40,8 +40,30 @@ function build_tiles() {
     );
 }
 
+/// Bars of the area's share in each range of texel densities.
+function build_density(density) {
+    const most = Math.max(...density.map(([, share]) => share));
+    by_id("density").hidden = density.length < 2;
+    if (density.length < 2) return;
+    by_id("density").append(
+        element("figcaption.muted", "Texels per metre, by share of the area"),
+        element(
+            "div.density-bars",
+            ...density.map(([from, share]) =>
+                element(
+                    "div",
+                    { title: `from ${figure_text(from)}: ${percent_text(share)}` },
+                    element("span", { style: `height: ${(100 * share) / most}%` }),
+                    element("small.number", Number(from.toPrecision(2)).toString()),
+                ),
+            ),
+        ),
+    );
+}
+
 function build_preflight() {
-    const { checks = [], pictures = [] } = bake.preflight ?? {};
+    const { checks = [], pictures = [], density = [] } = bake.preflight ?? {};
+    build_density(density);
     by_id("preflight-section").hidden = checks.length + pictures.length === 0;
     const marks = { good: "✓", note: "i", warning: "!", bad: "×" };
     by_id("checks").append(
@@ -49,7 +71,7 @@ function build_preflight() {
             element(
                 `li.${level}`,
                 element("span.mark", { "aria-label": level }, marks[level] ?? "i"),
-                element("div", element("strong", name), element("p.muted", text)),
+                element("div", element("strong", name), text ? element("p.muted", text) : null),
             ),
         ),
     );

@@ -1,16 +1,19 @@
 // Reads textures that Lobelia wrote with ktx-parse, an independent reader, and compares every number.
-//   node tests/node/ktx2_check.mjs MAKE_KTX2
+//   node tests/ktx2_check.mjs MAKE_KTX2
 // MAKE_KTX2 FOLDER writes NAME.ktx2 and what it should hold, NAME.f32. Exit code 77 where ktx-parse is not installed.
 import { execFileSync } from 'node:child_process';
 import { mkdtempSync, readdirSync, readFileSync, rmSync } from 'node:fs';
+import { createRequire } from 'node:module';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
+import { pathToFileURL } from 'node:url';
 
 let ktx;
 try {
-  ktx = await import('ktx-parse');
+  const installed = createRequire(new URL('../tools/package.json', import.meta.url));
+  ktx = await import(pathToFileURL(installed.resolve('ktx-parse')));
 } catch {
-  console.log('ktx-parse is not installed: npm ci --prefix tests/node');
+  console.log('ktx-parse is not installed: npm ci --prefix tools');
   process.exit(77);
 }
 
