@@ -166,7 +166,7 @@ std::optional<Image> render_bake(const PathTracer& tracer, const BakedLight& lig
     std::vector<std::uint8_t> baked;
     for (const AtlasPlacement& placement : light.placements) baked.push_back(placement.baked ? 1 : 0);
     const CameraView view(tracer, std::move(baked));
-    static_assert(k_batch <= k_block_size);
+    static_assert(k_rays_at_once <= k_block_size);
     return render_tiles(rays, options, [&] { return std::make_unique<BakeWorker>(tracer, view, light); });
 }
 
