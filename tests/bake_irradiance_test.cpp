@@ -174,6 +174,28 @@ TEST(BakeFolder, FullDiskChangesNothing) {
     EXPECT_EQ(std::distance(fs::directory_iterator(folder.path() / "new"), fs::directory_iterator()), files);
 }
 
+TEST(BakeFolder, MorePagesThanFilesMayBeOpen) {
+    const test::TestFolder folder("bake-many");
+    Bake bake = some_bake("sh1/moments/convolution");
+    for (int i = 0; i < 45; ++i) {
+        bake.pages.push_back(bake.pages[1]);
+        bake.normals.push_back(bake.normals[1]);
+    }
+    rlimit old{};
+    ::getrlimit(RLIMIT_NOFILE, &old);
+    const rlimit few{80, old.rlim_max};
+    ::setrlimit(RLIMIT_NOFILE, &few);
+    const auto status = write_bake(folder.path(), bake, {.packings = {{"half"}}});
+    ::setrlimit(RLIMIT_NOFILE, &old);
+    ASSERT_TRUE(status) << status.error().message;
+    EXPECT_EQ(folder.entries(), 2u * 47 + 3);
+    EXPECT_TRUE(read_bake(folder.path()));
+    // And where the last one does not fit, nothing is left, temporary names included.
+    bake.pages.back().chart[0] = (1u << 24) + 1;
+    EXPECT_FALSE(write_bake(folder.path() / "again", bake, {.packings = std::vector<std::string>{}}));
+    EXPECT_FALSE(fs::exists(folder.path() / "again"));
+}
+
 TEST(BakeFolder, AFileInItsPlaceIsAnError) {
     const test::TestFolder folder("bake-file");
     test::overwrite(folder.path() / "file", "text");

@@ -27,7 +27,7 @@ struct Shard {
 };
 
 struct BakeOptions {
-    std::string codec = "sh2/moments/convolution";  ///< empty: plain irradiance at the shading normal
+    std::string codec = default_codec();  ///< empty: plain irradiance at the shading normal
     Frame frame = Frame::world;
     AtlasOptions atlas;
     PathOptions paths;

@@ -39,20 +39,7 @@ float spot_cone(const PunctualLight& light, float cosine) {
 
 }  // namespace
 
-float Lights::weight(const LightGroup& g, const Vantage& at) const {
-    if (g.far) return dot(at.normal, g.centre) < -g.radius ? 0 : g.strength;
-    const Vec3 v = g.centre - at.position;
-    if (dot(at.normal, v) < -g.radius || dot(g.front, at.position) < g.least) return 0;
-    return g.strength / std::max({dot(v, v), g.radius * g.radius, std::numeric_limits<float>::min()});
-}
-
-float Lights::weigh(const Vantage& at, Weights& weights) const {
-    float total = 0;
-    for (std::size_t g = 0; g < groups_.size(); ++g) total += weights[g] = weight(groups_[g], at);
-    return total;
-}
-
-SkyLight Lights::sky(const Weights& weights, float total, const EnvironmentSample& environment) const {
+SkyLight Lights::sky(const GroupWeights& weights, float total, const EnvironmentSample& environment) const {
     SkyLight light{environment.radiance, 0};
     const auto probability = [&](const LightSource& s) { return total > 0 ? s.share * weights[s.group] / total : 0; };
     if (environment_ && aimed_at_) light.pdf = probability(sources_[0]) * environment.pdf;
@@ -66,15 +53,15 @@ SkyLight Lights::sky(const Weights& weights, float total, const EnvironmentSampl
 
 SkyLight Lights::sky(const Vantage& at, Vec3 direction) const {
     if (!environment_ && suns_.empty()) return {};
-    Weights weights;
-    const float total = weigh(at, weights);
+    GroupWeights weights;
+    const float total = weights_.weigh(at, weights);
     return sky(weights, total, environment_ ? environment_->at(direction) : EnvironmentSample{direction, {}, 0});
 }
 
 float Lights::triangle_pdf(const Vantage& at, std::uint32_t emitter, float distance, float cosine) const {
     if (!aimed_at_) return 0;
-    Weights weights;
-    const float total = weigh(at, weights);
+    GroupWeights weights;
+    const float total = weights_.weigh(at, weights);
     const LightSource& s = sources_[source_of_emitter_[emitter]];
     return total > 0 ? s.share * weights[s.group] / total * distance * distance / (s.area * cosine) : 0;
 }
@@ -107,7 +94,7 @@ LightSample Lights::sample_punctual(const PunctualLight& light, float probabilit
     return {direction, distance, light.intensity * factor, 0};
 }
 
-LightSample Lights::sample_sky(const LightSource& source, const Weights& weights, float total, Pair point) const {
+LightSample Lights::sample_sky(const LightSource& source, const GroupWeights& weights, float total, Pair point) const {
     EnvironmentSample environment;
     if (source.kind == Kind::environment) {
         environment = environment_->sample(point);
@@ -129,8 +116,8 @@ LightSample Lights::sample(const Vantage& at, float choice, Pair point) const {
     if (!aimed_at_ || groups_.empty()) return {};
 
     // Choose a group by its weight; what is left of the number chooses within it.
-    Weights weights;
-    const float total = weigh(at, weights);
+    GroupWeights weights;
+    const float total = weights_.weigh(at, weights);
     if (!(total > 0)) return {};
     float rest = choice * total;
     std::size_t g = 0;

@@ -8,17 +8,11 @@
 #include "baker/directions.h"
 #include "baker/environment_light.h"
 #include "baker/light_source.h"
+#include "baker/light_weights.h"
 #include "baker/path_tracer.h"
 #include "baker/surface.h"
 
 namespace lobelia {
-
-/// A point that wants light, and the unit normal of the plane from below which none reaches it; (0, 0, 0): none does
-/// not.
-struct Vantage {
-    Vec3 position;
-    Vec3 normal;
-};
 
 /// One light source as it would reach a point if nothing stood between.
 struct LightSample {
@@ -60,8 +54,6 @@ class Lights {
         std::uint32_t source = 0;
         Sun(const Axes& a, Rgb e) : axes(a), irradiance(e) {}
     };
-    static constexpr std::size_t k_most_groups = 64;
-    using Weights = std::array<float, k_most_groups>;
 
     void add_environment(const PathOptions& options);
     void add_suns(const PathOptions& options);
@@ -69,10 +61,8 @@ class Lights {
     void add_group(std::span<LightSource> sources);
     [[nodiscard]] float mean_emission(std::uint32_t triangle) const;
 
-    [[nodiscard]] float weight(const LightGroup& group, const Vantage& at) const;
-    float weigh(const Vantage& at, Weights& weights) const;
-    [[nodiscard]] SkyLight sky(const Weights& weights, float total, const EnvironmentSample& environment) const;
-    [[nodiscard]] LightSample sample_sky(const LightSource& source, const Weights& weights, float total,
+    [[nodiscard]] SkyLight sky(const GroupWeights& weights, float total, const EnvironmentSample& environment) const;
+    [[nodiscard]] LightSample sample_sky(const LightSource& source, const GroupWeights& weights, float total,
                                          Pair point) const;
     [[nodiscard]] LightSample sample_triangle(const LightSource& source, float probability, const Vantage& at,
                                               Pair point) const;
@@ -86,6 +76,7 @@ class Lights {
     std::vector<LightSource> sources_;
     std::vector<std::uint32_t> source_of_emitter_;
     std::vector<LightGroup> groups_;
+    LightWeights weights_;
 };
 
 }  // namespace lobelia

@@ -1,5 +1,4 @@
 // The light sources of a scene, found and put into groups.
-#include <cassert>
 #include <cmath>
 
 #include "baker/light.h"
@@ -28,8 +27,8 @@ Lights::Lights(const Scene& scene, const Surfaces& surfaces, const PathOptions& 
 }
 
 void Lights::add_group(std::span<LightSource> sources) {
-    assert(groups_.size() < k_most_groups);
     groups_.push_back(make_group(sources, static_cast<std::uint32_t>(sources_.size())));
+    weights_.add(groups_.back());
     for (LightSource& source : sources) {
         source.group = static_cast<std::uint32_t>(groups_.size() - 1);
         sources_.push_back(source);

@@ -12,7 +12,7 @@ namespace lobelia {
 struct ProbeOptions {
     double spacing = 0;                      ///< of the coarsest grid [m]; 0: no probes
     std::optional<std::array<Vec3, 2>> box;  ///< lowest and highest corner; none: the box around the scene
-    std::string codec = "sh2/moments/convolution";
+    std::string codec = default_codec();
     int levels = 0;                      ///< how often a cell may be divided in eight
     double tolerance = 0.15;             ///< a cell is divided where the irradiance in its middle is off by this share
     std::uint32_t samples = 1024;        ///< for each probe

@@ -16,8 +16,8 @@ Rotation tangent_from_world(Vec3 normal) {
     // 1 + along, without its cancellation where the normal is nearly -k_z. From k_z to -k_z any way will do.
     const float c = along > 0 ? 1 + along : (a * a + b * b) / (1 - along);
     if (c < 1e-12f) return {k_x, k_y * -1.0f, normal};
-    return {k_x * (1 - a * a / c) - k_y * (a * b / c) - k_z * a, k_y * (1 - b * b / c) - k_x * (a * b / c) - k_z * b,
-            normal};
+    const Vec3 h = (k_x * a + k_y * b) * (1 / c) + k_z;
+    return {k_x - h * a, k_y - h * b, normal};
 }
 
 }  // namespace lobelia

@@ -83,8 +83,10 @@ void print_summary(const Baker& baker, const Bake& bake) {
                bake.pages.size() == 1 ? "" : "s", baker.atlas().width(), baker.atlas().height(), s.samples);
     fmt::print("{:.1f} million rays in {:.2f} s, {:.1f} Mray/s\n", static_cast<double>(s.rays) * 1e-6, s.seconds,
                s.seconds > 0 ? static_cast<double>(s.rays) * 1e-6 / s.seconds : 0);
-    fmt::print("standard error of E {:.2f} %, leaks {:.2f} %, invalid texels {}\n", 100 * s.mean_error,
-               100 * s.back_face_share, s.invalid_texels);
+    const std::string error = s.samples > baker.options().samples_per_pass ? fmt::format("{:.2f} %", 100 * s.mean_error)
+                                                                           : "not known from one pass";
+    fmt::print("standard error of E {}, leaks {:.2f} %, invalid texels {}\n", error, 100 * s.back_face_share,
+               s.invalid_texels);
     if (baker.codec() != nullptr)
         fmt::print("E by the codec off by {:.2f} %, negative {:.2f} %, ringing {:.2f} %\n", 100 * s.codec_error,
                    100 * s.negative_share, 100 * s.ringing);
@@ -175,6 +177,9 @@ Status JobRun::finish() {
     options.frame = baker_->in_tangent_frame() ? Frame::tangent : Frame::world;
     bake_.manifest = make_manifest(loaded_->scene, baker_->atlas(), options, baker_->statistics());
     bake_.manifest.precision = job_.precision;
+    if (job_.finish.denoise == Switch::on) bake_.manifest.finish.emplace_back("denoise");
+    if (job_.finish.seams == Switch::on) bake_.manifest.finish.emplace_back("seams");
+    if (job_.finish.dilate == Switch::on) bake_.manifest.finish.emplace_back("dilate");
     Guides guides = make_guides(baker_->atlas(), map_texels(baker_->atlas()));
     if (auto status = finish_pages(guides); !status) return status;
     bake_.normals = std::move(guides.normal);

@@ -17,12 +17,13 @@ namespace {
 namespace fs = std::filesystem;
 
 /// A new file of the folder of `path` under a name that no other process or thread has, made by `create(name)`, which
-/// tells whether it could.
+/// tells whether it could. Files that are staged at the same time differ in the hash of their names.
 template <class Create>
 std::optional<fs::path> create_named_beside(const fs::path& path, const Create& create) {
     constexpr int k_attempts = 1000;
+    const std::size_t name = fs::hash_value(path.filename());
     for (int i = 0; i < k_attempts; ++i) {
-        fs::path candidate = path.parent_path() / fmt::format(".lobelia-{}-{}.tmp", ::getpid(), i);
+        fs::path candidate = path.parent_path() / fmt::format(".lobelia-{}-{:x}-{}.tmp", ::getpid(), name, i);
         if (create(candidate)) return candidate;
         if (errno != EEXIST) return std::nullopt;
     }
@@ -99,7 +100,7 @@ Status StagedFile::flush() {
     return Done{};
 }
 
-Status StagedFile::commit() {
+Status StagedFile::close() {
     if (temporary_.empty()) {
         const std::string self = fmt::format("/proc/self/fd/{}", descriptor_.get());
         const auto named = create_named_beside(target_, [&](const fs::path& name) {
@@ -108,8 +109,13 @@ Status StagedFile::commit() {
         if (!named) return io::write_failure(target_, errno);
         temporary_ = *named;
     }
-    if (!descriptor_.close() || ::rename(temporary_.c_str(), target_.c_str()) != 0)
-        return io::write_failure(target_, errno);
+    if (!descriptor_.close()) return io::write_failure(target_, errno);
+    return Done{};
+}
+
+Status StagedFile::commit() {
+    if (Status status = close(); !status) return status;
+    if (::rename(temporary_.c_str(), target_.c_str()) != 0) return io::write_failure(target_, errno);
     temporary_.clear();
     return Done{};
 }

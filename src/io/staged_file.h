@@ -24,6 +24,8 @@ class StagedFile {
     [[nodiscard]] Status seek(std::uint64_t position);
     /// Brings all of it to the disk: only then is it certain that there is room for it.
     [[nodiscard]] Status flush();
+    /// Closes it, after `flush`, where many are staged at once; it then has a temporary name even if unnamed before.
+    [[nodiscard]] Status close();
     /// Puts it in place, after `flush`.
     [[nodiscard]] Status commit();
 

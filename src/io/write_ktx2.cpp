@@ -121,7 +121,7 @@ void store(std::span<const Rgba> texels, TexelFormat format, std::byte* target) 
                 target += sizeof bits;
             } else {
                 const float cut = value > 0 ? std::min(value, 1.0f) : 0.0f;
-                *target++ = static_cast<std::byte>(static_cast<int>(cut * 255 + 0.5f));
+                *target++ = static_cast<std::byte>(std::lround(cut * 255));
             }
         }
 }

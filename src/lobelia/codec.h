@@ -54,6 +54,8 @@ struct NamePattern {
 [[nodiscard]] std::vector<std::string> encoder_names(const Basis& basis);
 /// The listed encoder whose solution this one strives for: least squares, its non-negative form, or the joint norm's.
 [[nodiscard]] std::string encoder_limit(std::string_view encoder);
+/// The codec for texels and probes where none is asked for: the smallest that reads irradiance well (docs/baking.md).
+[[nodiscard]] std::string default_codec();
 /// The sensible product of the lists.
 [[nodiscard]] std::vector<CodecName> all_codecs();
 

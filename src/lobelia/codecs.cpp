@@ -141,6 +141,8 @@ std::string encoder_limit(std::string_view encoder) {
     return std::string(encoder);
 }
 
+std::string default_codec() { return "sh2/moments/convolution"; }
+
 std::vector<CodecName> all_codecs() {
     std::vector<CodecName> codecs;
     for (const char* name : k_bases) {

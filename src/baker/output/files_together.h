@@ -25,6 +25,10 @@ class FilesTogether {
         if (!file) return file.error();
         if (Status status = write(*file); !status) return status;
         if (Status status = file->flush(); !status) return status;
+        // A process may not hold many files open.
+        constexpr std::size_t k_most_open = 64;
+        if (files_.size() >= k_most_open)
+            if (Status status = file->close(); !status) return status;
         files_.push_back(*std::move(file));
         return Done{};
     }

@@ -12,12 +12,12 @@ namespace lobelia {
 
 namespace {
 
-constexpr std::size_t k_longest_text = 4096;
+constexpr std::size_t k_longest_text = std::size_t{1} << 20;
 
 }  // namespace
 
 void JsonPlace::refuse(std::string_view problem) const {
-    throw JsonRefusal(fmt::format("{}: {}: {}", file_, place_.empty() ? "at the top" : place_, problem));
+    throw JsonRefusal(fmt::format("{}: {}: {}", *file_, place_.empty() ? "at the top" : place_, problem));
 }
 
 std::optional<JsonPlace> JsonPlace::find(const char* key) const {
@@ -39,7 +39,7 @@ std::vector<JsonPlace> JsonPlace::list(std::size_t most) const {
     std::vector<JsonPlace> entries;
     entries.reserve(value_->size());
     for (std::size_t i = 0; i < value_->size(); ++i)
-        entries.emplace_back((*value_)[i], file_, fmt::format("{}[{}]", place_, i));
+        entries.push_back(JsonPlace((*value_)[i], file_, fmt::format("{}[{}]", place_, i)));
     return entries;
 }
 

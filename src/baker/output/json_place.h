@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
@@ -23,8 +24,8 @@ struct JsonRefusal : std::runtime_error {
 /// A value of a document, which outlives it.
 class JsonPlace {
   public:
-    JsonPlace(const nlohmann::json& value, std::string file, std::string place = {})
-        : value_(&value), file_(std::move(file)), place_(std::move(place)) {}
+    JsonPlace(const nlohmann::json& value, const std::string& file)
+        : JsonPlace(value, std::make_shared<const std::string>(file), {}) {}
 
     [[noreturn]] void refuse(std::string_view problem) const;
 
@@ -53,8 +54,12 @@ class JsonPlace {
     [[nodiscard]] std::size_t one_of(const std::vector<std::string>& names) const;
 
   private:
+    JsonPlace(const nlohmann::json& value, std::shared_ptr<const std::string> file, std::string place)
+        : value_(&value), file_(std::move(file)), place_(std::move(place)) {}
+
     const nlohmann::json* value_;
-    std::string file_, place_;
+    std::shared_ptr<const std::string> file_;
+    std::string place_;
 };
 
 /// The document, or a refusal.

@@ -45,6 +45,7 @@ struct Manifest {
     std::vector<BakedObject> objects;
     std::optional<std::string> probes;  ///< the probes' JSON file, beside the manifest
     BakeOptions options;                ///< codec and frame, too; memory, threads and checkpoint are not kept
+    std::vector<std::string> finish;    ///< steps that were taken after the bake, in order: denoise, seams, dilate
     BakeStatistics statistics;
 };
 

@@ -72,8 +72,8 @@ void read_layout(const JsonPlace& layout, Manifest& m) {
 }
 
 Vec2 scaled_pair(const JsonPlace& place, const Manifest& m) {
-    // Texels within 2^24 have their places in float32.
-    constexpr double k_most = 1 << 24;
+    // Well within float32 once they are texels.
+    constexpr double k_most = 1e30;
     const auto pair = place.list_of(2);
     return {static_cast<float>(pair[0].number_in(-k_most, k_most) * static_cast<double>(m.width)),
             static_cast<float>(pair[1].number_in(-k_most, k_most) * static_cast<double>(m.height))};
@@ -122,6 +122,8 @@ Manifest read_all(const JsonPlace& top) {
     read_layout(top.at("layout"), m);
     for (const auto& object : top.at("objects").list(k_most_objects))
         m.objects.push_back({object.at("name").text(), read_placement(object, m)});
+    if (const auto finish = top.find("finish"))
+        for (const auto& step : finish->list(k_most_warnings)) m.finish.push_back(step.text());
     if (const auto probes = top.find("probes")) m.probes = probes->file_name();
     JsonFieldReader(top).group("options", m.options);
     JsonFieldReader(top).group("statistics", m.statistics);

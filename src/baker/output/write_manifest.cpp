@@ -106,6 +106,7 @@ std::string to_json_text(const Manifest& m) {
                                    {"objects", std::move(objects)},
                                    {"probes", or_null(m.probes)},
                                    {"options", all_fields(m.options)},
+                                   {"finish", m.finish},
                                    {"statistics", all_fields(m.statistics)}};
     return document.dump(1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
