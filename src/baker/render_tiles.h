@@ -9,6 +9,7 @@
 #include <array>
 #include <mutex>
 
+#include "baker/camera_view.h"
 #include "baker/render.h"
 
 namespace lobelia {
