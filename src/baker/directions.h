@@ -30,7 +30,7 @@ struct CosSin {
 };
 [[nodiscard]] inline CosSin cos_sin_turns(float t) {
     // Fold into an eighth of a turn either side of a quarter's multiple, use Taylor's series there.
-    const int quarters = static_cast<int>(4 * t + 0.5f);
+    const int quarters = (static_cast<int>(8 * t) + 1) / 2;
     const float x = (t - 0.25f * static_cast<float>(quarters)) * static_cast<float>(2 * k_pi), x2 = x * x;
     const float s = x * (1 + x2 * (-1.0f / 6 + x2 * (1.0f / 120 + x2 * (-1.0f / 5040 + x2 / 362880))));
     const float c = 1 + x2 * (-0.5f + x2 * (1.0f / 24 + x2 * (-1.0f / 720 + x2 * (1.0f / 40320))));
