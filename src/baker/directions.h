@@ -24,7 +24,7 @@ struct Axes {
     [[nodiscard]] Vec3 local(Vec3 v) const { return {dot(x, v), dot(y, v), dot(z, v)}; }
 };
 
-/// Cosine and sine of 2 pi t for t in [0, 1], within 2e-7.
+/// Cosine and sine of 2 pi t for t in [0, 1], within 3e-7.
 struct CosSin {
     float cos = 1, sin = 0;
 };
