@@ -35,8 +35,8 @@ struct TexelSurface {
 [[nodiscard]] TexelSurface surface_of(const Atlas& atlas, const TexelMap& map, std::size_t i);
 
 /// Rows x, y, z: z is `normal`, x and y depend on it alone, so that charts that meet agree on them; and they change
-/// with it as little as can be, so that neighbours may be averaged. No such frames exist without a pole; the only one is
-/// at (-2, -3, -6) / 7, which walls, floors and ceilings do not face.
+/// with it as little as can be, so that neighbours may be averaged. No such frames exist without a pole; the only one
+/// is at (-2, -3, -6) / 7, which walls, floors and ceilings do not face.
 [[nodiscard]] Rotation tangent_from_world(Vec3 normal);
 
 }  // namespace lobelia
