@@ -127,11 +127,17 @@ void closest(benchmark::State& state, const Workplace& place) {
                            benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
+/// As a bake does: a block of receivers, 64 samples of each in passes of 16.
+constexpr std::size_t k_block = 64;
+void gather_block(const Workplace& place, std::size_t first, GatherBuffer& buffer, PathTracer::Scratch& scratch) {
+    for (std::uint32_t pass = 0; pass < 4; ++pass)
+        gather(place.tracer, std::span(place.receivers).subspan(first, k_block), {16 * pass, 16}, {}, buffer, scratch);
+}
+
 /// One thread; an item is a ray, of either kind. `of_embree`: rays a second over Embree's own, the two taken in turns.
 void paths(benchmark::State& state, const Workplace& place) {
     const auto scratch = place.tracer.make_scratch();
     GatherBuffer buffer;
-    constexpr std::size_t block = 64;
     std::size_t first = 0;
     double seconds = 0, embree = 0, turns = 0;
     for (auto _ : state) {
@@ -140,8 +146,8 @@ void paths(benchmark::State& state, const Workplace& place) {
         ++turns;
         state.ResumeTiming();
         const double start = thread_seconds();
-        for (int i = 0; i < 8; ++i, first = (first + block) % (place.receivers.size() - block))
-            gather(place.tracer, std::span(place.receivers).subspan(first, block), {0, 64}, {}, buffer, *scratch);
+        for (int i = 0; i < 8; ++i, first = (first + k_block) % (place.receivers.size() - k_block))
+            gather_block(place, first, buffer, *scratch);
         seconds += thread_seconds() - start;
     }
     const auto rays = static_cast<double>(PathTracer::rays(*scratch));
@@ -153,12 +159,10 @@ void paths(benchmark::State& state, const Workplace& place) {
 void whole(benchmark::State& state, const Workplace& place) {
     std::atomic<std::uint64_t> rays{0};
     for (auto _ : state)
-        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, place.receivers.size(), 64), [&](const auto& range) {
+        tbb::parallel_for(std::size_t{0}, place.receivers.size() / k_block, [&](std::size_t block) {
             const auto scratch = place.tracer.make_scratch();
             GatherBuffer buffer;
-            for (std::uint32_t pass = 0; pass < 4; ++pass)
-                gather(place.tracer, std::span(place.receivers).subspan(range.begin(), range.size()), {16 * pass, 16},
-                       {}, buffer, *scratch);
+            gather_block(place, block * k_block, buffer, *scratch);
             rays += PathTracer::rays(*scratch);
         });
     state.counters["rays"] = benchmark::Counter(static_cast<double>(rays), benchmark::Counter::kIsRate);
@@ -171,9 +175,9 @@ void register_trace() {
     for (const auto& [name, place] :
          {std::pair<std::string, Place>{"cornell", cornell}, {"colonnade", colonnade}, {"million", million}}) {
         benchmark::RegisterBenchmark(("trace.embree_closest." + name).c_str(),
-                                     [place](benchmark::State& s) { closest(s, place()); });
+                                     [place = place](benchmark::State& s) { closest(s, place()); });
         benchmark::RegisterBenchmark(("trace." + name + ".1").c_str(),
-                                     [place](benchmark::State& s) { paths(s, place()); });
+                                     [place = place](benchmark::State& s) { paths(s, place()); });
     }
     benchmark::RegisterBenchmark("trace.cornell.48000x64", [](benchmark::State& s) { whole(s, cornell()); })
         ->UseRealTime()

@@ -24,8 +24,8 @@ std::string message_of(const std::string& bytes, const ReadChannelsOptions& opti
 }
 
 /// `count` planes of random floats over many orders of magnitude, and their names.
-struct Planes {
-    Planes(std::size_t w, std::size_t h, std::size_t count) : width(w), height(h) {
+struct ChannelPlanes {
+    ChannelPlanes(std::size_t w, std::size_t h, std::size_t count) : width(w), height(h) {
         std::mt19937 generator(3);
         std::uniform_real_distribution<float> uniform(-12, 12);
         for (std::size_t i = 0; i < count; ++i) {
@@ -44,11 +44,11 @@ struct Planes {
     std::vector<std::vector<float>> planes;
 };
 
-std::string encoded(const Planes& p, const ExrOptions& options = {}) {
+std::string encoded(const ChannelPlanes& p, const ExrOptions& options = {}) {
     return encode_exr(p.width, p.height, p.channels(), options).value();
 }
 
-std::string staged(const std::filesystem::path& path, const Planes& p, const std::vector<ExrChannel>& channels,
+std::string staged(const std::filesystem::path& path, const ChannelPlanes& p, const std::vector<ExrChannel>& channels,
                    const ExrOptions& options) {
     auto file = StagedFile::create(path).value();
     EXPECT_TRUE(write_exr(file, p.width, p.height, channels, options));
@@ -59,7 +59,7 @@ std::string staged(const std::filesystem::path& path, const Planes& p, const std
 TEST(ExrChannels, StreamedEqualsEncodedInMemory) {
     const test::TestFolder folder("exr-channels");
     // Halves go through bands of rows, of which 2^21 of them make one.
-    Planes planes(257, 391, 23);
+    ChannelPlanes planes(257, 391, 23);
     for (auto& plane : planes.planes) std::fill(plane.begin() + 99, plane.end() - 99, plane[50]);
     for (const auto precision : {ExrOptions::Precision::half, ExrOptions::Precision::full})
         EXPECT_EQ(staged(folder.path() / "a.exr", planes, planes.channels(), {precision}),
@@ -68,7 +68,7 @@ TEST(ExrChannels, StreamedEqualsEncodedInMemory) {
 
 TEST(ExrChannels, RoundTripInTheOrderAskedFor) {
     // More channels than the pictures' reader takes; the file sorts c10 before c2.
-    const Planes planes(7, 40, 300);
+    const ChannelPlanes planes(7, 40, 300);
     const std::string bytes = encoded(planes);
     ReadChannelsOptions options;
     options.wanted = planes.names;
@@ -89,7 +89,7 @@ TEST(ExrChannels, RoundTripInTheOrderAskedFor) {
 
 TEST(ExrChannels, EachChannelMayHaveItsPrecision) {
     const test::TestFolder folder("exr-precision");
-    Planes planes(5, 50, 3);
+    ChannelPlanes planes(5, 50, 3);
     for (float& v : planes.planes[1]) v = std::clamp(v, -1e4f, 1e4f);
     auto channels = planes.channels();
     channels[1].precision = ExrOptions::Precision::half;
@@ -118,14 +118,14 @@ TEST(ExrChannels, EveryLayoutAndTypeIsRead) {
 }
 
 TEST(ExrChannels, TruncatedAtEveryByteIsAnError) {
-    const std::string whole = encoded(Planes(9, 20, 3));
+    const std::string whole = encoded(ChannelPlanes(9, 20, 3));
     ASSERT_EQ(message_of(whole), "");
     for (std::size_t length = 0; length < whole.size(); ++length)
         EXPECT_EQ(message_of(whole.substr(0, length)).rfind("planes.exr: ", 0), 0u) << length;
 }
 
 TEST(ExrChannels, WhatCannotBeReadIsRefused) {
-    const std::string bytes = encoded(Planes(16, 8, 5));
+    const std::string bytes = encoded(ChannelPlanes(16, 8, 5));
     EXPECT_NE(message_of(bytes, {.wanted = {"c1.R", "c9.R"}}).find("no channel c9.R"), std::string::npos);
     EXPECT_NE(message_of(bytes, {.most_pixels = 127}).find("at most 127"), std::string::npos);
     EXPECT_NE(message_of(bytes, {.most_channels = 4}).find("more than 4 channels"), std::string::npos);
@@ -142,7 +142,7 @@ TEST(ExrChannels, WhatCannotBeReadIsRefused) {
 }
 
 TEST(ExrChannels, AnyByteChangedIsAnErrorOrAnImage) {
-    const std::string good = encoded(Planes(9, 20, 3));
+    const std::string good = encoded(ChannelPlanes(9, 20, 3));
     const ReadChannelsOptions small{.most_pixels = 1 << 16, .most_values = 1 << 18};
     std::mt19937 generator(8);
     for (int i = 0; i < 4000; ++i) {
@@ -159,7 +159,7 @@ TEST(ExrChannels, FullDiskLeavesTheOldFile) {
     const auto path = folder.path() / "a.exr";
     test::overwrite(path, "old");
     // At the beginning, in the middle, and where only the table of chunks does not fit any more.
-    const Planes planes(64, 64, 4);
+    const ChannelPlanes planes(64, 64, 4);
     const std::size_t size = encoded(planes).size();
     for (const std::size_t most : {std::size_t{10}, size / 2, size - 4}) {
         const Status status = [&]() -> Status {

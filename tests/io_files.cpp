@@ -22,9 +22,9 @@ namespace lobelia {
 
 namespace {
 
-using Texel = HdrTexels::Texel;
+using HdrTexel = HdrTexels::Texel;
 
-void append(std::string& bytes, const Texel& texel) {
+void append(std::string& bytes, const HdrTexel& texel) {
     for (const std::uint8_t b : texel) bytes.push_back(static_cast<char>(b));
 }
 
@@ -36,7 +36,7 @@ std::size_t run_length(std::size_t i, std::size_t size, std::size_t most, const 
     return length;
 }
 
-void append_old_rle(std::string& bytes, const std::vector<Texel>& line) {
+void append_old_rle(std::string& bytes, const std::vector<HdrTexel>& line) {
     for (std::size_t i = 0; i < line.size();) {
         append(bytes, line[i]);
         std::size_t repeats =
@@ -46,7 +46,7 @@ void append_old_rle(std::string& bytes, const std::vector<Texel>& line) {
     }
 }
 
-void append_new_rle(std::string& bytes, const std::vector<Texel>& line) {
+void append_new_rle(std::string& bytes, const std::vector<HdrTexel>& line) {
     append(bytes, {2, 2, static_cast<std::uint8_t>(line.size() / 256), static_cast<std::uint8_t>(line.size() % 256)});
     for (std::size_t c = 0; c < 4; ++c) {
         for (std::size_t i = 0; i < line.size();) {
@@ -60,10 +60,10 @@ void append_new_rle(std::string& bytes, const std::vector<Texel>& line) {
 }
 
 /// The scanlines of a picture as `axes` orders them.
-std::vector<std::vector<Texel>> scanlines(const HdrTexels& picture, const std::string& axes) {
+std::vector<std::vector<HdrTexel>> scanlines(const HdrTexels& picture, const std::string& axes) {
     const bool columns = axes[1] == 'X';
     const bool left = axes[columns ? 0 : 3] == '-', up = axes[columns ? 3 : 0] == '+';
-    std::vector<std::vector<Texel>> lines(columns ? picture.width : picture.height);
+    std::vector<std::vector<HdrTexel>> lines(columns ? picture.width : picture.height);
     for (std::size_t l = 0; l < lines.size(); ++l) {
         for (std::size_t i = 0; i < (columns ? picture.height : picture.width); ++i) {
             const std::size_t x = columns ? l : i, y = columns ? i : l;
@@ -75,9 +75,9 @@ std::vector<std::vector<Texel>> scanlines(const HdrTexels& picture, const std::s
 }
 
 /// The samples of all channels in one pixel type, and the frame buffer that points at them.
-class Planes {
+class StoredPlanes {
   public:
-    Planes(const Image& image, const ExrSpec& spec) : bytes_(spec.channels.size()) {
+    StoredPlanes(const Image& image, const ExrSpec& spec) : bytes_(spec.channels.size()) {
         const std::size_t size = spec.type == Imf::HALF ? 2 : 4;
         for (std::size_t c = 0; c < bytes_.size(); ++c) {
             for (const Rgb& pixel : image.pixels)
@@ -137,8 +137,8 @@ HdrTexels test_texels(std::size_t width, std::size_t height) {
         // Half of the texels lie in runs; mantissas are normalised, as every writer does.
         const std::size_t v = x % 16 < 8 ? x / 16 : x;
         const auto byte = [](std::size_t b) { return static_cast<std::uint8_t>(b); };
-        Texel texel{byte(128 + (v * 7 + y * 3) % 128), byte((v * 31 + y) % 256), byte((v + y * 17) % 256),
-                    byte(120 + (v + y) % 20)};
+        HdrTexel texel{byte(128 + (v * 7 + y * 3) % 128), byte((v * 31 + y) % 256), byte((v + y * 17) % 256),
+                       byte(120 + (v + y) % 20)};
         if ((x + y) % 11 == 5) texel = {0, 0, 0, 0};
         picture.texels.push_back(texel);
     }
@@ -150,10 +150,10 @@ std::string make_hdr(const HdrTexels& picture, const HdrSpec& spec) {
     const auto sizes = columns ? std::array{picture.width, picture.height} : std::array{picture.height, picture.width};
     std::string bytes = "#?RADIANCE\n" + spec.variables + "\n" + spec.axes.substr(0, 2) + " " +
                         std::to_string(sizes[0]) + " " + spec.axes.substr(3, 2) + " " + std::to_string(sizes[1]) + "\n";
-    for (const std::vector<Texel>& line : scanlines(picture, spec.axes)) {
+    for (const std::vector<HdrTexel>& line : scanlines(picture, spec.axes)) {
         switch (spec.scheme) {
             case HdrSpec::Scheme::flat:
-                for (const Texel& texel : line) append(bytes, texel);
+                for (const HdrTexel& texel : line) append(bytes, texel);
                 break;
             case HdrSpec::Scheme::old_rle:
                 append_old_rle(bytes, line);
@@ -176,7 +176,7 @@ Image test_image(std::size_t width, std::size_t height) {
 }
 
 std::string make_exr(const Image& image, const ExrSpec& spec) {
-    const Planes planes(image, spec);
+    const StoredPlanes planes(image, spec);
     const Imf::Header header = header_of(image, spec);
     io::MemoryOutput out("test");
     if (spec.layout == ExrSpec::Layout::scan_lines) {
@@ -204,7 +204,7 @@ std::string make_luminance_chroma_exr(const Image& image) {
 
 std::string make_multi_part_exr(const Image& image, const std::vector<std::vector<std::string>>& parts) {
     std::vector<Imf::Header> headers;
-    std::vector<Planes> planes;
+    std::vector<StoredPlanes> planes;
     for (const auto& channels : parts) {
         ExrSpec spec;
         spec.channels = channels;

@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "baker/camera_view.h"
+#include "baker/coefficient_blocks.h"
 #include "lobelia/quadrature.h"
 #include "lobelia/sampling.h"
 #include "scene/embedded.h"
@@ -282,21 +284,22 @@ TEST(Render, StopsAndTellsItsProgress) {
     EXPECT_FALSE(render_paths(tracer, scene.cameras.front(), options));
 }
 
-TEST(CoefficientReader, ReadsAsTheCodecDoes) {
+TEST(CoefficientBlocks, AreReadAsTheCodecReadsOne) {
     std::vector<std::string> names;
     for (const char* basis : {"sh1", "sh2", "sg12", "sg12h"})
         for (const auto& evaluator : (*make_basis(basis))->evaluator_names())
             names.push_back(std::string(basis) + "/moments/" + evaluator);
     for (const std::string& name : names) {
         const Codec codec = *make_codec(name);
-        CoefficientReader reader(codec);
+        IrradianceReader irradiance(codec.evaluator(), codec.basis().size());
+        RadianceReader radiance(codec.basis(), codec.evaluator().negative());
         constexpr std::size_t k_count = 19;
-        std::vector<float> block(reader.block_floats());
+        std::vector<float> block(block_floats(codec.basis().size()));
         for (std::size_t i = 0; i < block.size(); ++i) block[i] = unit_float(mix(static_cast<std::uint32_t>(i), 7));
         const Directions directions = uniform_directions(codec.basis().domain(), Sequence::random, k_count, 3);
         Colours e(k_count), l(k_count), one(1);
-        reader.irradiance(block, directions, e);
-        reader.radiance(block, directions, l);
+        irradiance.read(block, directions, e);
+        radiance.read(block, directions, l);
         for (std::size_t j = 0; j < k_count; ++j) {
             std::vector<Rgb> c(codec.basis().size());
             for (std::size_t i = 0; i < c.size(); ++i)

@@ -56,7 +56,7 @@ Mesh unbaked(Mesh mesh) {
     return mesh;
 }
 
-bool near(Vec3 a, Vec3 b, float tolerance) { return length(a - b) <= tolerance; }
+bool is_near(Vec3 a, Vec3 b, float tolerance) { return length(a - b) <= tolerance; }
 
 TEST(Texels, LieOnTheSurfaceInTheirTexel) {
     // UVs are the world's x and y, so that texels can be told from positions.
@@ -74,7 +74,7 @@ TEST(Texels, LieOnTheSurfaceInTheirTexel) {
         EXPECT_NEAR(texel.position.y * 40, static_cast<float>(at.y) + 0.5f, 1e-4f);
         EXPECT_NEAR(length(texel.normal), 1, 1e-5f);
         EXPECT_GT(dot(texel.normal, texel.face_normal), 0.8f);
-        EXPECT_TRUE(near(texel.face_normal, baked.world.face_normal(baked.map.triangle[i]), 1e-6f));
+        EXPECT_TRUE(is_near(texel.face_normal, baked.world.face_normal(baked.map.triangle[i]), 1e-6f));
         ASSERT_EQ(texel.position_count, k_most_positions);
         for (std::size_t k = 0; k < k_most_positions; ++k) {
             // Lifted, but not far.

@@ -57,6 +57,9 @@ Status Atlas::find_placements(const AtlasOptions& options) {
     using Layout = AtlasOptions::Layout;
     if (options.layout != Layout::automatic) return place(options, options.layout);
     if (options.texels_per_metre) return place(options, Layout::packed);
+    const auto& has_uv = world_->has_lightmap_uv;
+    if (std::count_if(has_uv.begin(), has_uv.end(), [](auto has) { return has != 0; }) == 1)
+        return place(options, Layout::shared);
     // UVs that overlap too often for `place` overlap between objects, or it will refuse them once more.
     if (const Status status = place(options, Layout::shared); status && !objects_overlap()) return status;
     return place(options, Layout::packed);

@@ -2,6 +2,7 @@
 // Duff et al. 2017 (frames).
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "baker/sequence.h"
@@ -23,17 +24,17 @@ struct Axes {
     [[nodiscard]] Vec3 local(Vec3 v) const { return {dot(x, v), dot(y, v), dot(z, v)}; }
 };
 
-/// Cosine and sine of 2 pi t for t in [0, 1], within 2e-7.
+/// Cosine and sine of 2 pi t for t in [0, 1], within 3e-7.
 struct CosSin {
     float cos = 1, sin = 0;
 };
 [[nodiscard]] inline CosSin cos_sin_turns(float t) {
     // Fold into an eighth of a turn either side of a quarter's multiple, use Taylor's series there.
-    const float quarters = std::floor(4 * t + 0.5f);
-    const float x = (t - 0.25f * quarters) * static_cast<float>(2 * k_pi), x2 = x * x;
+    const int quarters = (static_cast<int>(8 * t) + 1) / 2;
+    const float x = (t - 0.25f * static_cast<float>(quarters)) * static_cast<float>(2 * k_pi), x2 = x * x;
     const float s = x * (1 + x2 * (-1.0f / 6 + x2 * (1.0f / 120 + x2 * (-1.0f / 5040 + x2 / 362880))));
     const float c = 1 + x2 * (-0.5f + x2 * (1.0f / 24 + x2 * (-1.0f / 720 + x2 * (1.0f / 40320))));
-    switch (static_cast<int>(quarters) & 3) {
+    switch (quarters & 3) {
         case 0:
             return {c, s};
         case 1:
@@ -48,8 +49,8 @@ struct CosSin {
 /// atan2(s, c) in turns, in [-1/2, 1/2], within 1e-7: a minimax polynomial of the arc tangent's odd powers on [0, 1],
 /// good to 4e-8, and reflections.
 [[nodiscard]] inline float turns_of(float s, float c) {
-    const float across = std::fabs(s), along = std::fabs(c), longer = std::fmax(across, along);
-    const float a = longer > 0 ? std::fmin(across, along) / longer : 0, a2 = a * a;
+    const float across = std::fabs(s), along = std::fabs(c), longer = std::max(across, along);
+    const float a = longer > 0 ? std::min(across, along) / longer : 0, a2 = a * a;
     float turns = 0.00108413096f;
     for (const float k : {-0.00534827899f, 0.0126725024f, -0.0210615188f, 0.0315251178f, -0.0530262382f, 0.159154324f})
         turns = turns * a2 + k;
@@ -60,7 +61,7 @@ struct CosSin {
 }
 /// acos(c) in half turns, for c in [-1, 1], within 2.2e-5: sqrt(1 - |c|) times a minimax polynomial, and a reflection.
 [[nodiscard]] inline float rough_half_turns_of(float c) {
-    const float x = std::fmin(std::fabs(c), 1.0f);
+    const float x = std::min(std::fabs(c), 1.0f);
     const float t =
         std::sqrt(1 - x) * (0.499978512f + x * (-0.0675183782f + x * (0.0236384388f + x * -0.00596190257f)));
     return c < 0 ? 1 - t : t;
@@ -68,7 +69,7 @@ struct CosSin {
 
 /// Directions about z: height a map of point.a, azimuth a turn times point.b.
 [[nodiscard]] inline Vec3 around_z(float z, float turn) {
-    const float r = std::sqrt(std::fmax(0.0f, 1 - z * z));
+    const float r = std::sqrt(std::max(0.0f, 1 - z * z));
     const auto [c, s] = cos_sin_turns(turn);
     return {r * c, r * s, z};
 }

@@ -48,19 +48,23 @@ EnvironmentLight::Texel EnvironmentLight::texel(Vec3 direction) const {
     std::size_t y = cell(rough_half_turns_of(direction.y), image_->height);
     if (y > 0 && direction.y > cosine_[y]) --y;
     if (y + 1 < image_->height && direction.y < cosine_[y + 1]) ++y;
-    return {cell(0.5f + turns_of(direction.x, -direction.z), image_->width), y};
+    const std::size_t x = cell(0.5f + turns_of(direction.x, -direction.z), image_->width);
+    return {x, y, y * image_->width + x};
 }
 
-EnvironmentSample EnvironmentLight::look(Vec3 direction, Texel t) const {
+EnvironmentSample EnvironmentLight::look(const Drawn& drawn) const {
     // The probability of a texel is its luminance times its solid angle over the sum of these: over the solid angle,
     // the latter cancels.
-    const Rgb radiance = image_->at(t.x, t.y);
-    return {direction, radiance, choice_ == Choice::uniform ? k_uniform_pdf : brightness(radiance) * density_};
+    const Rgb radiance = image_->pixels[drawn.texel];
+    const float pdf = choice_ == Choice::uniform ? k_uniform_pdf : brightness(radiance) * density_;
+    return {drawn.direction, radiance, pdf};
 }
 
-EnvironmentSample EnvironmentLight::sample(Pair point) const {
-    if (choice_ == Choice::uniform) return at(around_z(1 - 2 * point.a, point.b));
-
+EnvironmentLight::Drawn EnvironmentLight::draw(Pair point) const {
+    if (choice_ == Choice::uniform) {
+        const Vec3 direction = around_z(1 - 2 * point.a, point.b);
+        return {direction, texel(direction).index};
+    }
     const auto [y, row_rest] = rows_[0].sample(static_cast<double>(point.a));
     const auto [x, column_rest] = columns_[y].sample(static_cast<double>(point.b));
     const float height = cosine_[y] + static_cast<float>(row_rest) * (cosine_[y + 1] - cosine_[y]);
@@ -68,10 +72,8 @@ EnvironmentSample EnvironmentLight::sample(Pair point) const {
     const auto turn = static_cast<float>((static_cast<double>(x) + column_rest) / static_cast<double>(image_->width));
     // Column u looks to the azimuth pi (2 u - 1) (docs/conventions.md): half a turn is a change of sign.
     const auto [c, s] = cos_sin_turns(turn);
-    return look({-r * s, height, r * c}, {x, y});
+    return {{-r * s, height, r * c}, y * image_->width + x};
 }
-
-EnvironmentSample EnvironmentLight::at(Vec3 direction) const { return look(direction, texel(direction)); }
 
 float EnvironmentLight::pdf(Vec3 direction) const { return at(direction).pdf; }
 

@@ -25,21 +25,27 @@ class EnvironmentLight {
     /// `image` must outlive this; precondition: at least one texel has luminance above 0.
     EnvironmentLight(const Image& image, Choice choice);
 
-    [[nodiscard]] EnvironmentSample sample(Pair point) const;
+    /// A direction and the texel that it came from, which `look` reads.
+    struct Drawn {
+        Vec3 direction;
+        std::size_t texel = 0;
+    };
+    [[nodiscard]] Drawn draw(Pair point) const;
+    [[nodiscard]] EnvironmentSample look(const Drawn& drawn) const;
+    [[nodiscard]] EnvironmentSample sample(Pair point) const { return look(draw(point)); }
     [[nodiscard]] float pdf(Vec3 direction) const;
     /// A point that is mapped to `direction`; one with pdf 0 has none.
     [[nodiscard]] Pair inverse(Vec3 direction) const;
     /// Radiance and pdf there.
-    [[nodiscard]] EnvironmentSample at(Vec3 direction) const;
+    [[nodiscard]] EnvironmentSample at(Vec3 direction) const { return look({direction, texel(direction).index}); }
     /// Luminance of the mean radiance [W/(m^2 sr)].
     [[nodiscard]] float mean_luminance() const { return mean_luminance_; }
 
   private:
     struct Texel {
-        std::size_t x, y;
+        std::size_t x, y, index;
     };
     [[nodiscard]] Texel texel(Vec3 direction) const;
-    [[nodiscard]] EnvironmentSample look(Vec3 direction, Texel texel) const;
 
     const Image* image_;
     Choice choice_;

@@ -94,10 +94,13 @@ LightSample Lights::sample_punctual(const PunctualLight& light, float probabilit
     return {direction, distance, light.intensity * factor, 0};
 }
 
-LightSample Lights::sample_sky(const LightSource& source, const GroupWeights& weights, float total, Pair point) const {
+LightSample Lights::sample_sky(const LightSource& source, const GroupWeights& weights, float total, const Vantage& at,
+                               Pair point) const {
     EnvironmentSample environment;
     if (source.kind == Kind::environment) {
-        environment = environment_->sample(point);
+        const EnvironmentLight::Drawn drawn = environment_->draw(point);
+        if (dot(at.normal, drawn.direction) < 0) return {};
+        environment = environment_->look(drawn);
     } else {
         const Sun& sun = suns_[source.index];
         if (sun.flatness == 0) {
@@ -132,7 +135,7 @@ LightSample Lights::sample(const Vantage& at, float choice, Pair point) const {
 
     // Sample the source itself.
     const LightSource& source = sources_[chosen];
-    if (group.far) return sample_sky(source, weights, total, point);
+    if (group.far) return sample_sky(source, weights, total, at, point);
     const float probability = source.share * weights[g] / total;
     if (source.kind == Kind::triangle) return sample_triangle(source, probability, at, point);
     return sample_punctual(scene_->lights[source.index], probability, at);

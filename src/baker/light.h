@@ -63,7 +63,7 @@ class Lights {
 
     [[nodiscard]] SkyLight sky(const GroupWeights& weights, float total, const EnvironmentSample& environment) const;
     [[nodiscard]] LightSample sample_sky(const LightSource& source, const GroupWeights& weights, float total,
-                                         Pair point) const;
+                                         const Vantage& at, Pair point) const;
     [[nodiscard]] LightSample sample_triangle(const LightSource& source, float probability, const Vantage& at,
                                               Pair point) const;
     [[nodiscard]] LightSample sample_punctual(const PunctualLight& light, float probability, const Vantage& at) const;

@@ -5,8 +5,6 @@
 #include <cassert>
 #include <limits>
 
-#include "lobelia/planes.h"
-
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "baker/light_weights.cpp"
 #include <hwy/foreach_target.h>  // NOLINT: must precede highway.h
@@ -17,7 +15,8 @@ namespace lobelia::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 float Weigh(const LightWeights::Rows& rows, std::size_t size, const Vantage& at, GroupWeights& weights) {
-    const hn::CappedTag<float, k_lanes> d;
+    // Four at a time: most scenes have few groups, and going over to wider vectors and back costs more than it saves.
+    const hn::CappedTag<float, 4> d;
     using V = hn::Vec<decltype(d)>;
     const V px = hn::Set(d, at.position.x), py = hn::Set(d, at.position.y), pz = hn::Set(d, at.position.z);
     const V nx = hn::Set(d, at.normal.x), ny = hn::Set(d, at.normal.y), nz = hn::Set(d, at.normal.z);

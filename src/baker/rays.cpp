@@ -11,6 +11,7 @@
 #include <cassert>
 #include <cstring>
 #include <limits>
+#include <new>
 
 namespace lobelia {
 namespace {
@@ -128,6 +129,7 @@ RayScene::RayScene(const World& world, std::vector<std::uint8_t> kinds, const Tr
         const auto copy = [&](RTCBufferType type, RTCFormat format, const auto& from) {
             constexpr std::size_t size = sizeof(from[0]);
             void* to = rtcSetNewGeometryBuffer(geometry, type, 0, format, size, from.size());
+            if (to == nullptr) throw std::bad_alloc();
             std::memcpy(to, from.data(), size * from.size());
         };
         copy(RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, world.positions);

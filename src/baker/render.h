@@ -5,8 +5,10 @@
 #include <functional>
 #include <optional>
 
-#include "baker/camera_view.h"
-#include "baker/page_reader.h"
+#include "baker/atlas.h"
+#include "baker/pages.h"
+#include "baker/path_tracer.h"
+#include "lobelia/codec.h"
 #include "lobelia/image.h"
 
 namespace lobelia {
@@ -25,6 +27,15 @@ struct RenderOptions {
 /// before them. The same bits for any number of threads; nothing where `stop` was set on the way.
 [[nodiscard]] std::optional<Image> render_paths(const PathTracer& tracer, const Camera& camera,
                                                 const RenderOptions& options = {});
+
+/// A bake's pages and what reads them.
+struct BakedLight {
+    std::span<const Page> pages;
+    std::span<const AtlasPlacement> placements;  ///< of each object
+    PageLayout layout;
+    const Codec* codec = nullptr;   ///< null: pages hold irradiance alone
+    bool in_tangent_frame = false;  ///< directions of the coefficients are in each texel's tangent frame
+};
 
 /// The same camera rays, but where they meet the front of a surface with a lightmap, its light is that of the pages:
 /// coefficients, interpolated bilinearly, read as irradiance at the shading normal for the diffuse part, and as

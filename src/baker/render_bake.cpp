@@ -2,6 +2,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "baker/coefficient_blocks.h"
 #include "baker/directions.h"
 #include "baker/render.h"
 #include "baker/render_tiles.h"
@@ -54,7 +55,9 @@ class BakeWorker {
   public:
     BakeWorker(const PathTracer& tracer, const CameraView& view, const BakedLight& light)
         : tracer_(&tracer), view_(&view), light_(&light), paths_(tracer) {
-        if (light.codec != nullptr) reader_.emplace(*light.codec);
+        if (light.codec == nullptr) return;
+        irradiance_.emplace(light.codec->evaluator(), light.layout.coefficients);
+        radiance_.emplace(light.codec->basis(), light.codec->evaluator().negative());
     }
 
     void shade(std::span<const PathStart> rays, std::span<const std::uint32_t> of_ray, RenderTile& tile) {
@@ -79,7 +82,8 @@ class BakeWorker {
     const CameraView* view_;
     const BakedLight* light_;
     PathShader paths_;
-    std::optional<CoefficientReader> reader_;
+    std::optional<IrradianceReader> irradiance_;
+    std::optional<RadianceReader> radiance_;
     std::vector<Sight> sights_;
     std::vector<BakedPoint> points_;
     std::vector<float> block_;
@@ -122,7 +126,7 @@ BakedPoint BakeWorker::point(const Sight& sight, std::uint32_t of_ray) const {
 /// Irradiance and the radiance from the mirrored direction, at each point.
 void BakeWorker::read(MutableColourView irradiance, MutableColourView mirrored) {
     const std::size_t first = light_->layout.irradiance(0);
-    if (!reader_) {
+    if (!irradiance_) {
         for (std::size_t j = 0; j < points_.size(); ++j) {
             const Taps& t = points_[j].taps;
             const Rgb e{t.value(first), t.value(first + 1), t.value(first + 2)};
@@ -131,7 +135,7 @@ void BakeWorker::read(MutableColourView irradiance, MutableColourView mirrored) 
         }
         return;
     }
-    block_.resize(reader_->block_floats());
+    block_.resize(block_floats(light_->layout.coefficients));
     for (std::size_t plane = 0; plane < 3 * light_->layout.coefficients; ++plane)
         for (std::size_t j = 0; j < points_.size(); ++j)
             block_[plane * k_block_size + j] = points_[j].taps.value(plane);
@@ -142,8 +146,8 @@ void BakeWorker::read(MutableColourView irradiance, MutableColourView mirrored) 
         set_entry(normals.view(), j, light_->in_tangent_frame ? Vec3{0, 0, 1} : p.normal);
         set_entry(directions.view(), j, light_->in_tangent_frame ? wi : Axes(tangent_from_world(p.normal)).world(wi));
     }
-    reader_->irradiance(block_, normals, irradiance);
-    reader_->radiance(block_, directions, mirrored);
+    irradiance_->read(block_, normals, irradiance);
+    radiance_->read(block_, directions, mirrored);
 }
 
 void BakeWorker::add_points(RenderTile& tile) {
@@ -166,7 +170,7 @@ std::optional<Image> render_bake(const PathTracer& tracer, const BakedLight& lig
     std::vector<std::uint8_t> baked;
     for (const AtlasPlacement& placement : light.placements) baked.push_back(placement.baked ? 1 : 0);
     const CameraView view(tracer, std::move(baked));
-    static_assert(k_batch <= k_block_size);
+    static_assert(k_rays_at_once <= k_block_size);
     return render_tiles(rays, options, [&] { return std::make_unique<BakeWorker>(tracer, view, light); });
 }
 

@@ -9,13 +9,14 @@
 #include <array>
 #include <mutex>
 
+#include "baker/camera_view.h"
 #include "baker/render.h"
 
 namespace lobelia {
 
 /// Pixels of a tile, and rays of a batch.
 inline constexpr std::size_t k_tile_side = 8;
-inline constexpr std::size_t k_batch = 256;
+inline constexpr std::size_t k_rays_at_once = 256;
 
 /// The pixels of one tile, and the sums over their samples.
 struct RenderTile {
@@ -42,8 +43,8 @@ struct RenderTile {
     }
 };
 
-/// Calls worker.shade(rays, of_ray, tile) for batches of at most k_batch rays; of_ray tells the place of each ray's
-/// pixel in the tile. `make_worker` makes one for each thread.
+/// Calls worker.shade(rays, of_ray, tile) for batches of at most k_rays_at_once rays; of_ray tells the place of each
+/// ray's pixel in the tile. `make_worker` makes one for each thread.
 template <class MakeWorker>
 std::optional<Image> render_tiles(const CameraRays& rays, const RenderOptions& options, const MakeWorker& make_worker) {
     Image image(options.width, options.height);
@@ -68,7 +69,7 @@ std::optional<Image> render_tiles(const CameraRays& rays, const RenderOptions& o
             for (std::size_t i = 0; i < tile.count; ++i) {
                 batch.push_back(rays.ray(tile.pixel[i], sample));
                 of_ray.push_back(static_cast<std::uint32_t>(i));
-                if (batch.size() == k_batch) shade();
+                if (batch.size() == k_rays_at_once) shade();
             }
         if (!batch.empty()) shade();
         tile.finish(options.samples, image);

@@ -17,7 +17,7 @@ namespace {
 constexpr float k_least_cosine = 0.98481f;
 /// Points along a seam [per texel], and of all seams together at most.
 constexpr double k_points_per_texel = 2;
-constexpr double k_most_points = 1 << 23;
+constexpr double k_most_points = 1 << 21;
 /// So much of a footprint must be there for its point to count.
 constexpr float k_least_footprint = 0.25f;
 

@@ -31,7 +31,7 @@ Directions tilted_normals() {
 }
 
 /// One basis with one encoder, and all ways to read it.
-struct Method {
+struct Subject {
     CodecName name;  ///< without evaluator
     std::shared_ptr<const Encoder> encoder;
     std::vector<std::shared_ptr<const Evaluator>> evaluators;
@@ -53,7 +53,7 @@ class BakeStudy {
             const auto basis = make_basis(basis_name);
             if (!basis) return basis.error();
             for (const auto& encoder_name : encoder_names(**basis)) {
-                Method method{
+                Subject method{
                     {basis_name, encoder_name, {}}, make_encoder(encoder_name, *basis).value(), {}, readings_};
                 for (const auto& evaluator : (*basis)->evaluator_names())
                     method.evaluators.push_back(make_evaluator(evaluator, **basis).value());
@@ -84,12 +84,12 @@ class BakeStudy {
 
   private:
     void judge(std::size_t texel, std::vector<Sums>& sums, double& mean) const;
-    void compare(const Method& method, std::span<const Rgb> c, ColourView truth, std::vector<Sums>& sums) const;
+    void compare(const Subject& method, std::span<const Rgb> c, ColourView truth, std::vector<Sums>& sums) const;
 
     const Baker& baker_;
     const BakeStudyOptions& options_;
     Directions normals_ = tilted_normals();
-    std::vector<Method> methods_;
+    std::vector<Subject> methods_;
     std::size_t readings_ = 0;
     std::vector<std::vector<Sums>> sums_;
     std::vector<double> means_;  ///< of each texel, 0 where it is invalid
@@ -107,7 +107,7 @@ void BakeStudy::judge(std::size_t index, std::vector<Sums>& sums, double& mean) 
 
     // The same samples for all: the first of them go to the encoders, all of them to the reference.
     std::vector<std::vector<float>> states;
-    for (const Method& method : methods_) states.emplace_back(method.encoder->state_size());
+    for (const Subject& method : methods_) states.emplace_back(method.encoder->state_size());
     const auto scratch = tracer.make_scratch();
     GatherBuffer buffer;
     Colours truth(k_normals), part(k_normals);
@@ -138,7 +138,8 @@ void BakeStudy::judge(std::size_t index, std::vector<Sums>& sums, double& mean) 
     }
 }
 
-void BakeStudy::compare(const Method& method, std::span<const Rgb> c, ColourView truth, std::vector<Sums>& sums) const {
+void BakeStudy::compare(const Subject& method, std::span<const Rgb> c, ColourView truth,
+                        std::vector<Sums>& sums) const {
     Colours read(k_normals);
     for (std::size_t e = 0; e < method.evaluators.size(); ++e) {
         Sums& sum = sums[method.first_reading + e];
@@ -177,7 +178,7 @@ Study BakeStudy::result() const {
         double at_normal, tilted, negative;
     };
     std::vector<Row> rows;
-    for (const Method& method : methods_) {
+    for (const Subject& method : methods_) {
         std::vector<Row> readings;
         for (std::size_t e = 0; e < method.evaluators.size(); ++e) {
             const Sums& sum = totals[method.first_reading + e];

@@ -42,9 +42,10 @@ Neighbours neighbours(float coordinate, std::size_t size, Texture::Wrap wrap) {
     constexpr float most = 0x1p24f;
     const float bounded = std::isfinite(coordinate) ? std::clamp(coordinate, -most, most) : 0;
     const double at = static_cast<double>(bounded) * static_cast<double>(size) - 0.5;
-    const double below = std::floor(at);
-    const auto i = static_cast<std::int64_t>(below), n = static_cast<std::int64_t>(size);
-    return {wrapped(i, n, wrap), wrapped(i + 1, n, wrap), static_cast<float>(at - below)};
+    auto i = static_cast<std::int64_t>(at);
+    if (static_cast<double>(i) > at) --i;
+    const auto n = static_cast<std::int64_t>(size);
+    return {wrapped(i, n, wrap), wrapped(i + 1, n, wrap), static_cast<float>(at - static_cast<double>(i))};
 }
 
 }  // namespace

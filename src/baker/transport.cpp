@@ -15,7 +15,9 @@ constexpr float k_same_spot = 1e-5f;
 }  // namespace
 
 PathTracer::Implementation::Implementation(const Scene& s, const World& w, const PathOptions& o)
-    : scene(&s), world(&w), options(o), surfaces(s, w), rays(w, surfaces.kinds(), surfaces), lights(s, surfaces, o) {}
+    : scene(&s), world(&w), options(o), surfaces(s, w), rays(w, surfaces.kinds(), surfaces), lights(s, surfaces, o) {
+    assert(o.bounces >= 0);
+}
 
 /// Finds the surface that stops the path where the first one does not; false where there is none. A receiver must not
 /// see backs: they are reported, and what the path finds beyond them is for pictures alone.

@@ -19,7 +19,7 @@ using io::HdrHeader;
 using io::HdrOrientation;
 
 /// Mantissas and the common exponent, as stored.
-using Texel = std::array<std::uint8_t, 4>;
+using StoredTexel = std::array<std::uint8_t, 4>;
 
 /// What is wrong with a scanline; nothing where it was decoded.
 using Problem = std::optional<std::string>;
@@ -39,8 +39,8 @@ class Cursor {
         return std::to_integer<std::uint8_t>(bytes_[offset_ + ahead]);
     }
     [[nodiscard]] std::uint8_t take() { return std::to_integer<std::uint8_t>(bytes_[offset_++]); }
-    [[nodiscard]] Texel take_texel() {
-        const Texel texel{peek(0), peek(1), peek(2), peek(3)};
+    [[nodiscard]] StoredTexel take_texel() {
+        const StoredTexel texel{peek(0), peek(1), peek(2), peek(3)};
         offset_ += 4;
         return texel;
     }
@@ -51,11 +51,11 @@ class Cursor {
 };
 
 /// Whole texels; a texel (1, 1, 1, n) repeats the one before it n times, and directly after another such, n * 256 ...
-Problem decode_flat_or_old_rle(Cursor& in, std::span<Texel> line) {
+Problem decode_flat_or_old_rle(Cursor& in, std::span<StoredTexel> line) {
     unsigned shift = 0;
     for (std::size_t i = 0; i < line.size();) {
         if (in.remaining() < 4) return k_truncated;
-        const Texel texel = in.take_texel();
+        const StoredTexel texel = in.take_texel();
         if (texel[0] != 1 || texel[1] != 1 || texel[2] != 1) {
             line[i++] = texel;
             shift = 0;
@@ -74,7 +74,7 @@ Problem decode_flat_or_old_rle(Cursor& in, std::span<Texel> line) {
 }
 
 /// One component of a scanline: packets of a repeated byte (code above 128) or of literal bytes.
-Problem decode_component(Cursor& in, std::span<Texel> line, std::size_t component) {
+Problem decode_component(Cursor& in, std::span<StoredTexel> line, std::size_t component) {
     for (std::size_t i = 0; i < line.size();) {
         if (in.remaining() < 2) return k_truncated;
         const std::uint8_t code = in.take();
@@ -95,10 +95,10 @@ Problem decode_component(Cursor& in, std::span<Texel> line, std::size_t componen
 }
 
 /// A scanline in whichever scheme its first bytes tell.
-Problem decode_scanline(Cursor& in, std::span<Texel> line) {
+Problem decode_scanline(Cursor& in, std::span<StoredTexel> line) {
     const bool may_be_new = line.size() >= k_least_new_rle && line.size() <= k_most_new_rle && in.remaining() >= 4;
     if (!may_be_new || in.peek(0) != 2 || in.peek(1) != 2 || in.peek(2) > 127) return decode_flat_or_old_rle(in, line);
-    const Texel head = in.take_texel();
+    const StoredTexel head = in.take_texel();
     const std::size_t length = head[2] * 256u + head[3];
     if (length != line.size()) return fmt::format("a scanline says that it has {} texels, not {}", length, line.size());
     for (std::size_t component = 0; component < 4; ++component)
@@ -134,7 +134,7 @@ class TexelDecoder {
         }
     }
 
-    [[nodiscard]] Rgb operator()(const Texel& t) const {
+    [[nodiscard]] Rgb operator()(const StoredTexel& t) const {
         const float scale = power_[t[3]];
         return columns_[0] * (t[0] * scale) + columns_[1] * (t[1] * scale) + columns_[2] * (t[2] * scale);
     }
@@ -174,7 +174,7 @@ Result<LoadedImage> decode(std::span<const std::byte> bytes, std::string_view na
     // Decode each scanline into its row or column.
     LoadedImage loaded{Image(width, height), header.warnings, {}};
     const TexelDecoder rgb(header);
-    std::vector<Texel> line(length);
+    std::vector<StoredTexel> line(length);
     for (std::size_t l = 0; l < lines; ++l) {
         if (const Problem problem = decode_scanline(in, line))
             return Error{fmt::format("{}: {}, at byte {} (scanline {} of {})", name, *problem, in.offset(), l, lines)};

@@ -7,7 +7,6 @@
 
 #include "baker/bake.h"
 #include "baker/output/bake_folder.h"
-#include "baker/page_reader.h"
 #include "baker/preflight.h"
 #include "baker/render.h"
 #include "lobelia/image.h"
@@ -51,7 +50,7 @@ struct BakePage {
     std::vector<std::string> warnings;
     std::vector<BakeView> views;
     BakedLight light;                                ///< the pages
-    std::vector<std::vector<Rgb>> codec_irradiance;  ///< of each page, as texel_irradiance gives it
+    std::vector<std::vector<Rgb>> codec_irradiance;  ///< of each page, as page_irradiance gives it
     std::vector<std::uint32_t> object_of_chart;      ///< as objects_of_charts gives it
     std::vector<ObjectFigures> objects;              ///< in the scene's order, as object_figures gives them
     std::vector<PreflightCheck> checks;

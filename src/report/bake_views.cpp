@@ -1,6 +1,7 @@
 // What the page of a bake shows of a bake that is in memory.
 #include <algorithm>
 
+#include "baker/page_irradiance.h"
 #include "report/bake_page.h"
 
 namespace lobelia {
@@ -11,7 +12,10 @@ BakePage bake_page_of(const Scene& scene, const Baker& baker, const Bake& bake) 
     page.settings = bake_settings(bake.manifest.options, bake.pages.size());
     page.statistics = baker.statistics();
     page.light = {bake.pages, baker.atlas().placements(), bake.layout(), baker.codec(), baker.in_tangent_frame()};
-    if (baker.codec() != nullptr) page.codec_irradiance = texel_irradiance(page.light, bake.normals);
+    const Frame frame = baker.in_tangent_frame() ? Frame::tangent : Frame::world;
+    for (std::size_t p = 0; baker.codec() != nullptr && p < bake.pages.size(); ++p)
+        page.codec_irradiance.push_back(
+            page_irradiance(bake.pages[p], bake.layout(), bake.normals[p], frame, baker.codec()->evaluator()));
     page.object_of_chart = objects_of_charts(baker.atlas());
     page.objects = object_figures(scene, page.light, page.object_of_chart, page.codec_irradiance);
     return page;

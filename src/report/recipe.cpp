@@ -107,21 +107,21 @@ struct Judge {
 };
 
 Method run_method(const Codec& codec, SampleView samples, const Judge& judge) {
-    using Clock = std::chrono::steady_clock;
+    using Steady = std::chrono::steady_clock;
     const SampleView texels = judge.texels;
     const std::span<const float> weights{texels.solid_angles(), texels.size};
     Method method{codec.name(), Domain::sphere, {}, {}, {}, 0, 0};
-    const auto start = Clock::now();
+    const auto start = Steady::now();
     method.c = codec.encode(samples);
-    method.encode_ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+    method.encode_ms = std::chrono::duration<double, std::milli>(Steady::now() - start).count();
 
     Colours radiance(texels.size);
     codec.radiance(method.c, texels.directions(), radiance);
     method.radiance = recipe_errors(radiance, texels.radiance(), weights);
-    const auto read_start = Clock::now();
+    const auto read_start = Steady::now();
     const Colours irradiance = irradiance_over_pi(codec, method.c, texels.directions());
     method.evaluate_ns_per_normal =
-        std::chrono::duration<double, std::nano>(Clock::now() - read_start).count() / static_cast<double>(texels.size);
+        std::chrono::duration<double, std::nano>(Steady::now() - read_start).count() / static_cast<double>(texels.size);
     method.irradiance_over_pi = recipe_errors(irradiance, judge.irradiance_over_pi, weights);
     return method;
 }

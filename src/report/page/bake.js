@@ -15,7 +15,7 @@ function statistics_tiles(s) {
     return [
         [figure_text(s.rays / s.seconds / 1e6), "Mray/s", "Speed", `${figure_text(s.rays / 1e6)} million rays in ${figure_text(s.seconds)} s`],
         [count_text(s.texels), "", "Texels", `${count_text(s.samples)} samples each${s.least_samples < s.samples ? " at most" : ""}`],
-        [share_text(s.mean_error), "%", "Standard error", "of E at a texel, over the mean E", s.mean_error > 0.1],
+        [share_text(s.mean_error), "%", "Standard error", "of E at a texel, over the mean E, before denoising", s.mean_error > 0.1],
         baked && [share_text(s.codec_error), "%", "Codec error", "of E by the codec against E by the paths, RMS over the mean E"],
         [share_text(s.back_face_share), "%", "Leaks", "of paths met the back of a one-sided surface first", s.back_face_share > 0.01],
         [share_text(s.invalid_texels / s.texels), "%", "Invalid texels", `${count_text(s.invalid_texels)} see mostly backs`, s.invalid_texels > 0.02 * s.texels],

@@ -195,8 +195,9 @@ function layer_range(layer) {
 /// be told apart among itself: the largest mean magnitude is a quarter of white, or half of the way from grey to it.
 function scale_coefficients() {
     const ranges = bake.layers.filter(({ kind }) => kind === "coefficient").map((layer) => ({ layer, ...layer_range(layer) }));
-    // A little below 0 is an error of the fit; more is what the coefficient means.
-    for (const { layer, below } of ranges) layer.kind = below > 0.1 ? "signed" : "light";
+    // A little below 0 is an error of the fit, where no coefficient is far below; else it is what they mean.
+    const may_be_negative = ranges.some(({ below }) => below > 0.1);
+    for (const { layer, below } of ranges) layer.kind = may_be_negative && below > 1e-3 ? "signed" : "light";
     for (const [kind, target] of [["light", 0.25], ["signed", 1]]) {
         const of_kind = ranges.filter(({ layer }) => layer.kind === kind);
         const largest = Math.max(0, ...of_kind.map(({ mean }) => mean));
