@@ -8,10 +8,10 @@
 #include <ctime>
 #include <memory>
 
-#include "baker/directions.h"
-#include "baker/gather.h"
-#include "baker/rays.h"
-#include "baker/surface.h"
+#include "baker/bake/gather.h"
+#include "baker/transport/directions.h"
+#include "baker/transport/rays.h"
+#include "baker/transport/surface.h"
 #include "lobelia/sampling.h"
 #include "scene/embedded.h"
 

@@ -1,5 +1,5 @@
 // Layouts, charts and the map of texels, against exact clipping of every triangle with every texel.
-#include "baker/atlas.h"
+#include "baker/atlas/atlas.h"
 
 #include <oneapi/tbb/global_control.h>
 

@@ -4,8 +4,8 @@
 #include <cstring>
 
 #include "bake_files.h"
+#include "baker/bake/page_irradiance.h"
 #include "baker/output/irradiance_files.h"
-#include "baker/page_irradiance.h"
 #include "folders.h"
 #include "io/read_exr_channels.h"
 

@@ -1,5 +1,5 @@
 // The bake as a whole: the same bits however it is cut up, and light that is right.
-#include "baker/bake.h"
+#include "baker/bake/bake.h"
 
 #include <gtest/gtest.h>
 
@@ -7,10 +7,10 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "baker/checkpoint.h"
-#include "baker/merge.h"
-#include "baker/plan.h"
-#include "baker/sites.h"
+#include "baker/bake/checkpoint.h"
+#include "baker/bake/merge.h"
+#include "baker/bake/plan.h"
+#include "baker/bake/sites.h"
 #include "scene/embedded.h"
 
 namespace lobelia {

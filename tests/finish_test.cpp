@@ -1,11 +1,11 @@
 // The finishing steps, against plain oracles and noise-free truths.
-#include "baker/finish.h"
+#include "baker/finish/finish.h"
 
 #include <oneapi/tbb/global_control.h>
 
 #include <random>
 
-#include "baker/edges.h"
+#include "baker/atlas/edges.h"
 #include "scenes.h"
 #include "support.h"
 

@@ -1,10 +1,10 @@
 // Gathering: samples say the same as the irradiance beside them, layouts are as stated, and no bit depends on how the
 // work is divided.
-#include "baker/gather.h"
+#include "baker/bake/gather.h"
 
 #include <gtest/gtest.h>
 
-#include "baker/sequence.h"
+#include "baker/transport/sequence.h"
 #include "measure.h"
 #include "support.h"
 

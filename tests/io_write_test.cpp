@@ -175,5 +175,17 @@ TEST(ReadLdr, OversizedHuffmanTablesAreRefused) {
     EXPECT_NE(loaded.error().message.find("Huffman"), std::string::npos) << loaded.error().message;
 }
 
+TEST(ReadLdr, ChunksLongerThanTheFileAreRefused) {
+    const auto png = encode_png(to_srgb(test_image(16, 8), 0.02f));
+    ASSERT_TRUE(png);
+    // The length of the first chunk of image data, set to 1 GiB, for which stb_image would take two.
+    std::string damaged = *png;
+    const std::size_t at = damaged.find("IDAT") - 4;
+    damaged.replace(at, 4, std::string("\x40\0\0\0", 4));
+    const auto loaded = read_environment(std::as_bytes(std::span(damaged)), "picture.png", {.ldr = true});
+    ASSERT_FALSE(loaded);
+    EXPECT_NE(loaded.error().message.find("longer than the file"), std::string::npos) << loaded.error().message;
+}
+
 }  // namespace
 }  // namespace lobelia

@@ -1,9 +1,9 @@
 // Light sources: samples agree with densities and inverses; the choice of a source leaves none out.
-#include "baker/light.h"
+#include "baker/transport/light.h"
 
 #include <gtest/gtest.h>
 
-#include "baker/directions.h"
+#include "baker/transport/directions.h"
 #include "small_scenes.h"
 #include "support.h"
 

@@ -1,10 +1,10 @@
 // Reflection: samples agree with densities, values and each other; no light is made; textures are read where they are.
-#include "baker/material.h"
+#include "baker/transport/material.h"
 
 #include <gtest/gtest.h>
 
-#include "baker/directions.h"
-#include "baker/texture.h"
+#include "baker/transport/directions.h"
+#include "baker/transport/texture.h"
 #include "lobelia/colour.h"
 #include "small_scenes.h"
 #include "support.h"

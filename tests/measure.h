@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "baker/gather.h"
+#include "baker/bake/gather.h"
 #include "small_scenes.h"
 
 namespace lobelia::test {

@@ -1,10 +1,10 @@
 // Light transport against the truth: furnaces, analytic scenes, switches that may not change the mean, repeatability.
 // Monte Carlo tests have fixed seeds; each states its limit in standard errors.
-#include "baker/path_tracer.h"
+#include "baker/transport/path_tracer.h"
 
 #include <gtest/gtest.h>
 
-#include "baker/sequence.h"
+#include "baker/transport/sequence.h"
 #include "measure.h"
 #include "support.h"
 

@@ -1,5 +1,5 @@
 // Preflight finds what was put wrong on purpose, as much of it as there is, and nothing else.
-#include "baker/preflight.h"
+#include "baker/atlas/preflight.h"
 
 #include <map>
 #include <numeric>

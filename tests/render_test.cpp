@@ -1,12 +1,12 @@
 // Pictures from a camera: what they must be where the light is known, and the same bits at any number of threads.
-#include "baker/render.h"
+#include "baker/render/render.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "baker/camera_view.h"
-#include "baker/coefficient_blocks.h"
+#include "baker/bake/coefficient_blocks.h"
+#include "baker/transport/camera_view.h"
 #include "lobelia/quadrature.h"
 #include "lobelia/sampling.h"
 #include "scene/embedded.h"

@@ -1,5 +1,5 @@
 // Sobol pairs fill the square evenly, whatever their number, and come out the same one by one and in vectors.
-#include "baker/sequence.h"
+#include "baker/transport/sequence.h"
 
 #include <gtest/gtest.h>
 #include <hwy/targets.h>

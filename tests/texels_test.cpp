@@ -1,5 +1,5 @@
 // Points of texels: on the surface, within the texel, and out of what buries them.
-#include "baker/texels.h"
+#include "baker/atlas/texels.h"
 
 #include <algorithm>
 

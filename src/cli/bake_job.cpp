@@ -5,8 +5,8 @@
 
 #include <csignal>
 
-#include "baker/checkpoint.h"
-#include "baker/merge.h"
+#include "baker/bake/checkpoint.h"
+#include "baker/bake/merge.h"
 #include "baker/output/bake_folder.h"
 #include "cli/common.h"
 #include "lobelia/sample.h"

@@ -4,11 +4,11 @@
 
 #include <filesystem>
 
-#include "baker/bake.h"
-#include "baker/finish.h"
+#include "baker/atlas/preflight.h"
+#include "baker/bake/bake.h"
+#include "baker/bake/probe_bake.h"
+#include "baker/finish/finish.h"
 #include "baker/output/bake_folder.h"
-#include "baker/preflight.h"
-#include "baker/probe_bake.h"
 #include "cli/scene_input.h"
 #include "io/write_image.h"
 

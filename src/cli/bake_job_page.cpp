@@ -1,7 +1,7 @@
 // What a job shows: its lightmap UVs before the bake, and the page after it.
 #include <fmt/format.h>
 
-#include "baker/sites.h"
+#include "baker/bake/sites.h"
 #include "cli/bake_job.h"
 #include "cli/common.h"
 #include "report/bake_page.h"

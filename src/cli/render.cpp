@@ -7,7 +7,7 @@
 
 #include "baker/output/bake_folder.h"
 #include "baker/output/scene_copy.h"
-#include "baker/render.h"
+#include "baker/render/render.h"
 #include "cli/camera.h"
 #include "cli/common.h"
 #include "cli/eval_bake.h"

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "baker/study_bake.h"
+#include "baker/bake/study_bake.h"
 #include "cli/common.h"
 #include "cli/scene_input.h"
 #include "cli/verbs.h"

@@ -25,6 +25,7 @@
 
 #include "io/image_checks.h"
 #include "io/jpeg_check.h"
+#include "io/png_check.h"
 #include "io/read_picture.h"
 #include "lobelia/colour.h"
 
@@ -87,13 +88,19 @@ Result<Image> decode(StbBytes source, std::string_view name) {
     return Error{fmt::format("{}: a damaged picture: {}", name, stbi_failure_reason())};
 }
 
-/// Checks the segments and the size before anything is allocated.
+/// What is wrong with the parts that a file is made of, where its decoder would trust them.
+std::optional<std::string_view> problem_of(std::span<const std::byte> bytes) {
+    if (bytes.empty()) return std::nullopt;
+    if (bytes[0] == std::byte{0xff}) return io::jpeg_problem(bytes);
+    if (bytes[0] == std::byte{0x89}) return io::png_problem(bytes);
+    return std::nullopt;
+}
+
+/// Checks the parts and the size before anything is allocated.
 Result<StbBytes> checked(std::span<const std::byte> bytes, std::string_view name, const ReadOptions& options) {
     if (bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
         return Error{fmt::format("{}: the picture file is larger than 2 GiB", name)};
-    const bool is_jpeg = !bytes.empty() && bytes[0] == std::byte{0xff};
-    if (const auto problem = is_jpeg ? io::jpeg_problem(bytes) : std::nullopt)
-        return Error{fmt::format("{}: a damaged picture: {}", name, *problem)};
+    if (const auto problem = problem_of(bytes)) return Error{fmt::format("{}: a damaged picture: {}", name, *problem)};
     const StbBytes source{reinterpret_cast<const stbi_uc*>(bytes.data()), static_cast<int>(bytes.size())};
     PictureInfo info;
     int channels = 0;

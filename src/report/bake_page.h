@@ -5,10 +5,10 @@
 #include <utility>
 #include <vector>
 
-#include "baker/bake.h"
+#include "baker/atlas/preflight.h"
+#include "baker/bake/bake.h"
 #include "baker/output/bake_folder.h"
-#include "baker/preflight.h"
-#include "baker/render.h"
+#include "baker/render/render.h"
 #include "lobelia/image.h"
 
 namespace lobelia {

@@ -1,7 +1,7 @@
 // The options and the statistics of a bake, field by field, as bake.json has them.
 #pragma once
 
-#include "baker/bake.h"
+#include "baker/bake/bake.h"
 #include "baker/output/json_fields.h"
 
 namespace lobelia {

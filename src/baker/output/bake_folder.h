@@ -1,9 +1,9 @@
 // A bake as a folder: bake.json, its pages, probes and textures. docs/bake-format.md describes it.
 #pragma once
 
+#include "baker/bake/pages.h"
+#include "baker/bake/probes.h"
 #include "baker/output/manifest.h"
-#include "baker/pages.h"
-#include "baker/probes.h"
 
 namespace lobelia {
 

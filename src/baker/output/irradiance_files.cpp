@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "baker/bake/page_irradiance.h"
 #include "baker/output/files_together.h"
-#include "baker/page_irradiance.h"
 
 namespace lobelia {
 namespace {

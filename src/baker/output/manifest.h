@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "baker/atlas.h"
-#include "baker/bake.h"
+#include "baker/atlas/atlas.h"
+#include "baker/bake/bake.h"
 #include "io/write_image.h"
 
 namespace lobelia {

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "baker/pages.h"
+#include "baker/bake/pages.h"
 #include "io/write_image.h"
 
 namespace lobelia {

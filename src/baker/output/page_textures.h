@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "baker/pages.h"
+#include "baker/bake/pages.h"
 #include "io/staged_file.h"
 #include "lobelia/texture_packing.h"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "baker/probes.h"
+#include "baker/bake/probes.h"
 #include "io/staged_file.h"
 
 namespace lobelia {

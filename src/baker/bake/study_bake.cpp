@@ -1,0 +1,225 @@
+// One set of samples for each texel, handed to every encoder; the reference is the sum over many more of them.
+#include "baker/bake/study_bake.h"
+
+#include <fmt/format.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+#include <set>
+
+#include "baker/atlas/texels.h"
+#include "lobelia/environment.h"
+#include "lobelia/sampling.h"
+
+namespace lobelia {
+namespace {
+
+/// The shading normal, and normals tilted from it by up to 60 degrees.
+constexpr std::size_t k_normals = 16;
+constexpr std::uint32_t k_batch = 64;
+
+Directions tilted_normals() {
+    Directions normals(k_normals);
+    const Directions around = uniform_directions(Domain::hemisphere, Sequence::hammersley, 2 * (k_normals - 1), 0);
+    // Hammersley's heights fall from 1: the first half lies within 60 degrees.
+    set_entry(normals.view(), 0, Vec3{0, 0, 1});
+    for (std::size_t j = 1; j < k_normals; ++j) set_entry(normals.view(), j, direction_at(around, j - 1));
+    return normals;
+}
+
+/// One basis with one encoder, and all ways to read it.
+struct Subject {
+    CodecName name;  ///< without evaluator
+    std::shared_ptr<const Encoder> encoder;
+    std::vector<std::shared_ptr<const Evaluator>> evaluators;
+    std::size_t first_reading = 0;  ///< of its evaluators, among all
+};
+
+/// Sums over texels, for each reading and normal class.
+struct Sums {
+    double at_normal = 0, tilted = 0;
+    std::size_t negative = 0;
+};
+
+class BakeStudy {
+  public:
+    BakeStudy(const Baker& baker, const BakeStudyOptions& options) : baker_(baker), options_(options) {}
+
+    [[nodiscard]] Status find_methods() {
+        for (const auto& basis_name : options_.bases.empty() ? basis_names() : options_.bases) {
+            const auto basis = make_basis(basis_name);
+            if (!basis) return basis.error();
+            for (const auto& encoder_name : encoder_names(**basis)) {
+                Subject method{
+                    {basis_name, encoder_name, {}}, make_encoder(encoder_name, *basis).value(), {}, readings_};
+                for (const auto& evaluator : (*basis)->evaluator_names())
+                    method.evaluators.push_back(make_evaluator(evaluator, **basis).value());
+                readings_ += method.evaluators.size();
+                methods_.push_back(std::move(method));
+            }
+        }
+        return Done{};
+    }
+
+    void run(const std::atomic<bool>& stop, const std::function<void(double)>& progress) {
+        const std::size_t all = baker_.texels().texels.size(), count = std::min(options_.texels, all);
+        sums_.assign(count, std::vector<Sums>(readings_));
+        means_.assign(count, 0);
+        std::atomic<std::size_t> done = 0;
+        std::mutex mutex;
+        tbb::parallel_for(std::size_t{0}, count, [&](std::size_t k) {
+            if (stop) return;
+            judge(k * all / count, sums_[k], means_[k]);
+            ++done;
+            if (!progress || !mutex.try_lock()) return;
+            progress(static_cast<double>(done) / static_cast<double>(count));
+            mutex.unlock();
+        });
+    }
+
+    [[nodiscard]] Study result() const;
+
+  private:
+    void judge(std::size_t texel, std::vector<Sums>& sums, double& mean) const;
+    void compare(const Subject& method, std::span<const Rgb> c, ColourView truth, std::vector<Sums>& sums) const;
+
+    const Baker& baker_;
+    const BakeStudyOptions& options_;
+    Directions normals_ = tilted_normals();
+    std::vector<Subject> methods_;
+    std::size_t readings_ = 0;
+    std::vector<std::vector<Sums>> sums_;
+    std::vector<double> means_;  ///< of each texel, 0 where it is invalid
+};
+
+void BakeStudy::judge(std::size_t index, std::vector<Sums>& sums, double& mean) const {
+    std::vector<Texel> texel;
+    const PathTracer& tracer = baker_.tracer();
+    make_texels(baker_.atlas(), baker_.texels(), index, index + 1, tracer, Switch::on, texel);
+    Receiver receiver{{texel[0].positions.data(), texel[0].position_count}, texel[0].normal};
+    receiver.frame_from_world = tangent_from_world(texel[0].normal);
+    receiver.key = static_cast<std::uint32_t>(index);
+    GatherOptions gathering;
+    gathering.dark_below = Switch::on;
+
+    // The same samples for all: the first of them go to the encoders, all of them to the reference.
+    std::vector<std::vector<float>> states;
+    for (const Subject& method : methods_) states.emplace_back(method.encoder->state_size());
+    const auto scratch = tracer.make_scratch();
+    GatherBuffer buffer;
+    Colours truth(k_normals), part(k_normals);
+    std::uint32_t back_faces = 0;
+    for (std::uint32_t first = 0; first < options_.reference_samples; first += k_batch) {
+        gather(tracer, {&receiver, 1}, {first, k_batch}, gathering, buffer, *scratch);
+        back_faces += buffer.gathered(0).back_faces;
+        const SampleView above{buffer.directions(0).part(0, k_batch)};
+        for (const SampleView& view : {above, buffer.sources(0)}) {
+            irradiance_sum(view, normals_, part);
+            for (std::size_t c = 0; c < 3; ++c)
+                for (std::size_t j = 0; j < k_normals; ++j) truth.channel(c)[j] += part.channel(c)[j];
+        }
+        if (first >= options_.samples) continue;
+        for (std::size_t m = 0; m < methods_.size(); ++m) {
+            const Encoder& encoder = *methods_[m].encoder;
+            encoder.add(states[m], encoder.basis().domain() == Domain::sphere ? buffer.directions(0) : above);
+            encoder.add_sources(states[m], buffer.sources(0));
+        }
+    }
+    if (2 * back_faces > options_.reference_samples) return;
+    scale(truth, static_cast<float>(2 * k_pi / options_.reference_samples));
+    mean = luminance(colour_at(truth, 0));
+    for (std::size_t m = 0; m < methods_.size(); ++m) {
+        std::vector<Rgb> c(methods_[m].encoder->basis().size());
+        methods_[m].encoder->solve(states[m], c);
+        compare(methods_[m], c, truth, sums);
+    }
+}
+
+void BakeStudy::compare(const Subject& method, std::span<const Rgb> c, ColourView truth,
+                        std::vector<Sums>& sums) const {
+    Colours read(k_normals);
+    for (std::size_t e = 0; e < method.evaluators.size(); ++e) {
+        Sums& sum = sums[method.first_reading + e];
+        method.evaluators[e]->signed_irradiance(c, normals_, read);
+        for (std::size_t j = 0; j < k_normals; ++j)
+            if (luminance(colour_at(read, j)) < 0) ++sum.negative;
+        irradiance(*method.evaluators[e], c, normals_, read);
+        for (std::size_t j = 0; j < k_normals; ++j) {
+            const double off = luminance(colour_at(read, j) - colour_at(truth, j));
+            (j == 0 ? sum.at_normal : sum.tilted) += off * off;
+        }
+    }
+}
+
+Study BakeStudy::result() const {
+    std::size_t texels = 0;
+    double mean = 0;
+    std::vector<Sums> totals(readings_);
+    for (std::size_t k = 0; k < means_.size(); ++k) {
+        if (!(means_[k] > 0)) continue;
+        ++texels;
+        mean += means_[k];
+        for (std::size_t r = 0; r < readings_; ++r) {
+            totals[r].at_normal += sums_[k][r].at_normal;
+            totals[r].tilted += sums_[k][r].tilted;
+            totals[r].negative += sums_[k][r].negative;
+        }
+    }
+    const auto count = static_cast<double>(texels);
+    mean /= count;
+
+    // The best reading of each method, and the methods by their error at tilted normals.
+    struct Row {
+        std::string name;
+        std::size_t floats;
+        double at_normal, tilted, negative;
+    };
+    std::vector<Row> rows;
+    for (const Subject& method : methods_) {
+        std::vector<Row> readings;
+        for (std::size_t e = 0; e < method.evaluators.size(); ++e) {
+            const Sums& sum = totals[method.first_reading + e];
+            CodecName name = method.name;
+            name.evaluator = method.evaluators[e]->name();
+            readings.push_back({name.str(), 3 * method.encoder->basis().size(), std::sqrt(sum.at_normal / count) / mean,
+                                std::sqrt(sum.tilted / (count * (k_normals - 1))) / mean,
+                                static_cast<double>(sum.negative) / (count * k_normals)});
+        }
+        rows.push_back(*std::min_element(readings.begin(), readings.end(),
+                                         [](const Row& a, const Row& b) { return a.tilted < b.tilted; }));
+    }
+    std::stable_sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) { return a.tilted < b.tilted; });
+
+    Study study;
+    study.name = "bake";
+    study.title = "Irradiance of baked codecs against a long reference";
+    study.summary = fmt::format(
+        "{} texels, {} samples each for the codecs and {} for the reference; RMS over texels of the "
+        "luminance of E, over its mean. Normals are tilted by up to 60 degrees.",
+        texels, options_.samples, options_.reference_samples);
+    Study::Table& table = study.tables.emplace_back();
+    table.title = study.title;
+    table.columns = {"codec", "floats", "E at the normal", "E at tilted normals", "negative"};
+    for (const Row& row : rows)
+        table.rows.push_back({row.name, std::to_string(row.floats), table_number(row.at_normal, 3),
+                              table_number(row.tilted, 3), fmt::format("{:.2f} %", 100 * row.negative)});
+    return study;
+}
+
+}  // namespace
+
+Result<Study> study_bake(const Scene& scene, const BakeOptions& bake, const BakeStudyOptions& options,
+                         const std::atomic<bool>& stop, const std::function<void(double)>& progress) {
+    auto baker = Baker::make(scene, bake);
+    if (!baker) return baker.error();
+    BakeStudy study(**baker, options);
+    if (auto status = study.find_methods(); !status) return status.error();
+    study.run(stop, progress);
+    if (stop) return Error{"stopped"};
+    return study.result();
+}
+
+}  // namespace lobelia
