@@ -24,34 +24,52 @@ void sum(const FunctionSet& functions, std::span<const float> block, DirectionVi
     }
 }
 
+/// What is not linear in the coefficients is read from one vector at a time: read(c, direction, value).
+template <class Read>
+void read_one_by_one(std::span<const float> block, DirectionView directions, CoefficientVector& one, Read read,
+                     MutableColourView out) {
+    for (std::size_t j = 0; j < directions.size; ++j) {
+        const auto at = [&](std::size_t plane) { return block[plane * k_block_size + j]; };
+        for (std::size_t i = 0; i < one.c.size(); ++i) one.c[i] = {at(3 * i), at(3 * i + 1), at(3 * i + 2)};
+        set_entry(one.direction.view(), 0, direction_at(directions, j));
+        read(one.c, one.direction, one.value.view());
+        set_entry(out, j, colour_at(one.value.view(), 0));
+    }
+}
+
 }  // namespace
 
 IrradianceReader::IrradianceReader(const Evaluator& evaluator, std::size_t coefficients)
-    : evaluator_(&evaluator), rows_(coefficients * k_block_size), c_(coefficients) {
+    : evaluator_(&evaluator), rows_(coefficients * k_block_size), one_{std::vector<Rgb>(coefficients)} {
     assert(!evaluator.weights() || evaluator.weights()->size() == coefficients);
 }
 
 void IrradianceReader::read(std::span<const float> block, DirectionView normals, MutableColourView out) {
-    if (const FunctionSet* weights = evaluator_->weights()) {
+    if (const FunctionSet* weights = evaluator_->weights())
         sum(*weights, block, normals, rows_, out);
-    } else {
-        // Such an evaluator wants one vector of coefficients at a time.
-        for (std::size_t j = 0; j < normals.size; ++j) {
-            const auto at = [&](std::size_t plane) { return block[plane * k_block_size + j]; };
-            for (std::size_t i = 0; i < c_.size(); ++i) c_[i] = {at(3 * i), at(3 * i + 1), at(3 * i + 2)};
-            set_entry(normal_.view(), 0, direction_at(normals, j));
-            evaluator_->signed_irradiance(c_, normal_, value_);
-            set_entry(out, j, colour_at(value_.view(), 0));
-        }
-    }
+    else
+        read_one_by_one(
+            block, normals, one_,
+            [&](std::span<const Rgb> c, DirectionView normal, MutableColourView value) {
+                evaluator_->signed_irradiance(c, normal, value);
+            },
+            out);
     if (evaluator_->negative() == Negative::clamped) clamp_negative(out);
 }
 
 RadianceReader::RadianceReader(const Basis& basis, Negative negative)
-    : basis_(&basis), negative_(negative), rows_(basis.size() * k_block_size) {}
+    : basis_(&basis), negative_(negative), rows_(basis.size() * k_block_size), one_{std::vector<Rgb>(basis.size())} {}
 
 void RadianceReader::read(std::span<const float> block, DirectionView directions, MutableColourView out) {
-    sum(*basis_, block, directions, rows_, out);
+    if (const FunctionSet* functions = basis_->linear())
+        sum(*functions, block, directions, rows_, out);
+    else
+        read_one_by_one(
+            block, directions, one_,
+            [&](std::span<const Rgb> c, DirectionView direction, MutableColourView value) {
+                basis_->radiance(c, direction, value);
+            },
+            out);
     if (negative_ == Negative::clamped) clamp_negative(out);
 }
 

@@ -12,6 +12,13 @@ namespace lobelia {
 /// [(3 * i + k) * k_block_size + j].
 [[nodiscard]] constexpr std::size_t block_floats(std::size_t coefficients) { return 3 * coefficients * k_block_size; }
 
+/// Room for one vector of coefficients, read in one direction.
+struct CoefficientVector {
+    std::vector<Rgb> c;
+    Directions direction{1};
+    Colours value{1};
+};
+
 /// Reads a block through an evaluator, which must outlive the reader. Not to be shared between threads.
 class IrradianceReader {
   public:
@@ -23,9 +30,7 @@ class IrradianceReader {
   private:
     const Evaluator* evaluator_;
     std::vector<float> rows_;
-    std::vector<Rgb> c_;
-    Directions normal_{1};
-    Colours value_{1};
+    CoefficientVector one_;
 };
 
 /// Reads a block as radiance of a basis, which must outlive the reader; what is below 0 is left or made 0.
@@ -39,6 +44,7 @@ class RadianceReader {
     const Basis* basis_;
     Negative negative_;
     std::vector<float> rows_;
+    CoefficientVector one_;
 };
 
 }  // namespace lobelia
