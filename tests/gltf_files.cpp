@@ -2,6 +2,7 @@
 #include "gltf_files.h"
 
 #include "io/write_image.h"
+#include "report/page/base64.h"
 
 namespace lobelia {
 
@@ -15,18 +16,6 @@ void append_word(std::string& bytes, std::size_t value) {
 }
 
 }  // namespace
-
-std::string base64(std::string_view bytes) {
-    constexpr std::string_view alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text;
-    for (std::size_t i = 0; i < bytes.size(); i += 3) {
-        std::uint32_t bits = 0;
-        for (std::size_t k = 0; k < 3; ++k)
-            bits = bits << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
-        for (std::size_t k = 0; k < 4; ++k) text += i + k <= bytes.size() ? alphabet[(bits >> (18 - 6 * k)) & 63] : '=';
-    }
-    return text;
-}
 
 std::string glb_of(std::string text, std::string binary) {
     text.append((4 - text.size() % 4) % 4, ' ');

@@ -51,8 +51,6 @@ struct GltfFile {
 /// The bytes of a PNG of 2 x 2 texels.
 [[nodiscard]] std::string small_png();
 
-[[nodiscard]] std::string base64(std::string_view bytes);
-
 /// The container around any JSON text and binary chunk.
 [[nodiscard]] std::string glb_of(std::string json, std::string binary);
 
