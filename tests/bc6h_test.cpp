@@ -12,8 +12,8 @@
 namespace lobelia {
 namespace {
 
-using bc6h::Sign;
-constexpr std::array k_signs = {Sign::unsigned_halves, Sign::signed_halves};
+using bc6h::Signedness;
+constexpr std::array k_signs = {Signedness::unsigned_halves, Signedness::signed_halves};
 
 int code_of(const std::byte* block) {
     const int low = std::to_integer<int>(block[0]) & 31;
@@ -34,9 +34,9 @@ const std::map<int, std::uint32_t> k_signed_answers = {
     {22, 0xe86b58d3}, {23, 0xa8cf2d85}, {26, 0x910fab52}, {27, 0x5fb3c505}, {30, 0x7c076fad}, {31, 0x007216c5}};
 
 TEST(Bc6hDecoder, GivesKnownAnswersForEveryMode) {
-    for (const Sign sign : k_signs) {
-        const auto& answers = sign == Sign::unsigned_halves ? k_unsigned_answers : k_signed_answers;
-        std::mt19937 generator(sign == Sign::unsigned_halves ? 1 : 2);
+    for (const Signedness sign : k_signs) {
+        const auto& answers = sign == Signedness::unsigned_halves ? k_unsigned_answers : k_signed_answers;
+        std::mt19937 generator(sign == Signedness::unsigned_halves ? 1 : 2);
         std::map<int, std::uint32_t> hashes;
         for (int n = 0; n < 4096; ++n) {
             std::array<std::byte, bc6h::k_block_bytes> block;
@@ -84,13 +84,13 @@ TEST(Bc6hTables, AnchorsAreWithinTheirRegions) {
 /// A block of 4 x 4 texels in three channels.
 struct Block {
     float values[3][16] = {};
-    [[nodiscard]] std::array<std::byte, bc6h::k_block_bytes> encoded(Sign sign) const {
+    [[nodiscard]] std::array<std::byte, bc6h::k_block_bytes> encoded(Signedness sign) const {
         const float* channels[3] = {values[0], values[1], values[2]};
         std::array<std::byte, bc6h::k_block_bytes> bytes;
         bc6h::encode_blocks(channels, 4, 1, sign, bytes.data());
         return bytes;
     }
-    [[nodiscard]] Block through(Sign sign) const {
+    [[nodiscard]] Block through(Signedness sign) const {
         Block result;
         const auto texels = bc6h::decode_block(encoded(sign).data(), sign);
         for (std::size_t c = 0; c < 3; ++c)
@@ -118,13 +118,13 @@ class RandomBlocks {
     std::uint32_t number(std::uint32_t below) { return static_cast<std::uint32_t>(generator_()) % below; }
 
     /// Noise, gradients, two colours with an edge between, an outlier, a flat colour: what lightmaps have.
-    Block block(Sign sign) {
+    Block block(Signedness sign) {
         Block b;
         const std::uint32_t kind = number(5);
         const float scale = std::ldexp(1.0f, static_cast<int>(number(20)) - 12);
         float ends[3][3];
         for (auto& end : ends)
-            for (float& v : end) v = sign == Sign::signed_halves ? 2 * uniform() - 1 : uniform();
+            for (float& v : end) v = sign == Signedness::signed_halves ? 2 * uniform() - 1 : uniform();
         const float angle = 6.2831853f * uniform(), nx = std::cos(angle), ny = std::sin(angle),
                     at = 3 * uniform() - 1.5f;
         for (std::size_t c = 0; c < 3; ++c)
@@ -134,7 +134,8 @@ class RandomBlocks {
                 float share = kind == 1 ? along : kind == 2 ? (nx * x + ny * y > at ? 1.0f : 0.0f) : 0.0f;
                 if (kind == 3 && i == number(16)) share = 1;
                 b.values[c][i] = scale * (ends[0][c] + share * (ends[1][c] - ends[0][c]));
-                if (kind == 0) b.values[c][i] = scale * (sign == Sign::signed_halves ? 2 * uniform() - 1 : uniform());
+                if (kind == 0)
+                    b.values[c][i] = scale * (sign == Signedness::signed_halves ? 2 * uniform() - 1 : uniform());
             }
         return b;
     }
@@ -145,12 +146,12 @@ class RandomBlocks {
 
 TEST(Bc6hEncoder, FlatBlocksKeepTheirHalves) {
     RandomBlocks random(1);
-    for (const Sign sign : k_signs)
+    for (const Signedness sign : k_signs)
         for (int n = 0; n < 2000; ++n) {
             Block b;
             for (auto& channel : b.values) {
                 float v = std::ldexp(random.uniform(), static_cast<int>(random.number(40)) - 24);
-                if (sign == Sign::signed_halves && random.number(2) == 0) v = -v;
+                if (sign == Signedness::signed_halves && random.number(2) == 0) v = -v;
                 std::fill_n(channel, 16, v);
             }
             const Block back = b.through(sign);
@@ -164,17 +165,17 @@ TEST(Bc6hEncoder, BlackAndTheLargestAreExact) {
     for (const float v : {0.0f, 65504.0f, 1e9f, 1e38f}) {
         Block b;
         for (auto& channel : b.values) std::fill_n(channel, 16, v);
-        EXPECT_EQ(b.through(Sign::unsigned_halves).values[1][7], std::min(v, 65504.0f));
-        EXPECT_EQ(b.through(Sign::signed_halves).values[1][7], std::min(v, 65504.0f));
+        EXPECT_EQ(b.through(Signedness::unsigned_halves).values[1][7], std::min(v, 65504.0f));
+        EXPECT_EQ(b.through(Signedness::signed_halves).values[1][7], std::min(v, 65504.0f));
     }
     // No light is negative.
     Block b;
     for (auto& channel : b.values) std::fill_n(channel, 16, -1.0f);
-    EXPECT_EQ(b.through(Sign::unsigned_halves).values[0][0], 0);
-    EXPECT_EQ(b.through(Sign::signed_halves).values[0][0], -1);
+    EXPECT_EQ(b.through(Signedness::unsigned_halves).values[0][0], 0);
+    EXPECT_EQ(b.through(Signedness::signed_halves).values[0][0], -1);
 }
 
-void expect_within_range(const Block& b, Sign sign) {
+void expect_within_range(const Block& b, Signedness sign) {
     const Block back = b.through(sign);
     float range = 0;
     for (std::size_t c = 0; c < 3; ++c) range = std::max(range, b.high(c) - b.low(c));
@@ -186,7 +187,7 @@ void expect_within_range(const Block& b, Sign sign) {
 
 TEST(Bc6hEncoder, StaysWithinTheRangeOfTheBlock) {
     RandomBlocks random(2);
-    for (const Sign sign : k_signs)
+    for (const Signedness sign : k_signs)
         for (int n = 0; n < 5000; ++n) expect_within_range(random.block(sign), sign);
 }
 
@@ -200,13 +201,13 @@ TEST(Bc6hEncoder, ABrightChannelThatHardlyVariesIsKept) {
             b.values[1][i] = std::ldexp(random.uniform(), -static_cast<int>(random.number(14)) - 6);
             b.values[2][i] = n % 2 ? 0.3f : 0.01f * random.uniform();
         }
-        expect_within_range(b, Sign::unsigned_halves);
+        expect_within_range(b, Signedness::unsigned_halves);
     }
 }
 
 TEST(Bc6hEncoder, TwoFlatRegionsAreKeptSharp) {
     // Every partition with two colours that differ in all channels: only its own two regions hold them.
-    for (const Sign sign : k_signs)
+    for (const Signedness sign : k_signs)
         for (std::size_t p = 0; p < bc6h::k_partitions; ++p) {
             Block b;
             for (std::size_t i = 0; i < 16; ++i) {
@@ -233,8 +234,8 @@ TEST(Bc6hEncoder, ALineInEachRegionNeedsTwo) {
             b.values[1][i] = second ? 0.3f : t;
             b.values[2][i] = second ? 0.2f : 0.6f;
         }
-        EXPECT_LT(code_of(b.encoded(Sign::unsigned_halves).data()) & 3, 3) << p;
-        total += error(b, b.through(Sign::unsigned_halves));
+        EXPECT_LT(code_of(b.encoded(Signedness::unsigned_halves).data()) & 3, 3) << p;
+        total += error(b, b.through(Signedness::unsigned_halves));
     }
     EXPECT_LT(std::sqrt(total / (16 * 48)), 0.012);  // of square roots around 0.7
 }
@@ -253,7 +254,7 @@ TEST(Bc6hEncoder, SmoothBlocksAreNearlyExact) {
         for (std::size_t c = 0; c < 3; ++c)
             for (std::size_t i = 0; i < 16; ++i)
                 b.values[c][i] = base[c] + dx[c] * static_cast<float>(i % 4) + dy[c] * static_cast<float>(i / 4);
-        squares += error(b, b.through(Sign::unsigned_halves));
+        squares += error(b, b.through(Signedness::unsigned_halves));
         for (const auto& channel : b.values)
             for (const float v : channel) signal += v;
     }
@@ -261,7 +262,7 @@ TEST(Bc6hEncoder, SmoothBlocksAreNearlyExact) {
 }
 
 TEST(Bc6hEncoder, IsTheSameOnAllTargetsButForRounding) {
-    for (const Sign sign : k_signs) {
+    for (const Signedness sign : k_signs) {
         std::vector<double> totals;
         test::on_all_targets([&] {
             RandomBlocks random(4);
@@ -283,15 +284,15 @@ TEST(Bc6hEncoder, BlocksSideBySideAreThoseAlone) {
     for (auto& r : rows) r.resize(4 * 4 * blocks);
     std::vector<Block> alone;
     for (std::size_t k = 0; k < blocks; ++k) {
-        alone.push_back(random.block(Sign::signed_halves));
+        alone.push_back(random.block(Signedness::signed_halves));
         for (std::size_t c = 0; c < 3; ++c)
             for (std::size_t i = 0; i < 16; ++i) rows[c][i / 4 * 4 * blocks + 4 * k + i % 4] = alone[k].values[c][i];
     }
     const float* channels[3] = {rows[0].data(), rows[1].data(), rows[2].data()};
     std::vector<std::byte> bytes(blocks * bc6h::k_block_bytes);
-    bc6h::encode_blocks(channels, 4 * blocks, blocks, Sign::signed_halves, bytes.data());
+    bc6h::encode_blocks(channels, 4 * blocks, blocks, Signedness::signed_halves, bytes.data());
     for (std::size_t k = 0; k < blocks; ++k) {
-        const auto expected = alone[k].encoded(Sign::signed_halves);
+        const auto expected = alone[k].encoded(Signedness::signed_halves);
         EXPECT_TRUE(std::equal(expected.begin(), expected.end(), &bytes[k * bc6h::k_block_bytes]));
     }
 }

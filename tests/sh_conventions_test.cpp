@@ -18,7 +18,7 @@ using nlohmann::json;
 
 /// Our coefficients of L = ambient + slope a . d, and of a directional light of irradiance `light` (across itself) from
 /// the unit direction b: worked out with the polynomials, for constants integrate to 4 pi, and d_i d_j to 4 pi / 3.
-struct Scene {
+struct DirectionalLights {
     double ambient = 0, slope = 0, light = 0;
     Vec3 a{0, 0, 1}, b{0, 0, 1};
 
@@ -45,7 +45,7 @@ struct Scene {
     }
 };
 
-std::vector<Scene> scenes() {
+std::vector<DirectionalLights> scenes() {
     return {{.ambient = 1},
             {.slope = 1, .a = normalize(Vec3{1, 2, -3})},
             {.light = k_pi, .b = normalize(Vec3{-0.3f, 0.8f, 0.4f})},
@@ -127,7 +127,7 @@ TEST(ShConventions, EveryTargetsFormulaGivesTheExactIrradiance) {
     const Directions normals = test::random_directions(Domain::sphere, 50, 3);
     for (const ShConvention& target : sh_conventions()) {
         ASSERT_TRUE(formulae.contains(target.name)) << target.name << " has no formula here";
-        for (const Scene& scene : scenes()) {
+        for (const DirectionalLights& scene : scenes()) {
             const Nine theirs = green(exported(target, scene.coefficients()));
             for (std::size_t i = 0; i < normals.size(); ++i) {
                 const Vec3 n = direction_at(normals, i);
@@ -139,13 +139,13 @@ TEST(ShConventions, EveryTargetsFormulaGivesTheExactIrradiance) {
 
 // ---- Known answers
 
-void expect_coefficients(const char* name, const Scene& scene, const Nine& expected) {
+void expect_coefficients(const char* name, const DirectionalLights& scene, const Nine& expected) {
     const Nine found = green(exported(convention(name), scene.coefficients()));
     for (std::size_t i = 0; i < 9; ++i) EXPECT_NEAR(found[i], 2 * expected[i], 2e-6) << name << " " << i;
 }
 
 TEST(ShConventions, AConstantSky) {
-    const Scene one{.ambient = 1};
+    const DirectionalLights one{.ambient = 1};
     const double c0 = 2 * std::sqrt(k_pi);
     expect_coefficients("directx", one, {c0});
     expect_coefficients("three", one, {c0});
@@ -156,7 +156,7 @@ TEST(ShConventions, AConstantSky) {
 
 TEST(ShConventions, ALinearSky) {
     // L = y: c_1 = sqrt(4 pi / 3), E / pi = 2/3 y.
-    const Scene up{.slope = 1, .a = {0, 1, 0}};
+    const DirectionalLights up{.slope = 1, .a = {0, 1, 0}};
     const double c1 = std::sqrt(4 * k_pi / 3);
     expect_coefficients("directx", up, {0, -c1});
     expect_coefficients("three", up, {0, c1});
@@ -167,21 +167,21 @@ TEST(ShConventions, ALinearSky) {
 
 TEST(ShConventions, ADirectionalLight) {
     // Of irradiance pi from +z: Y of the pole times pi; E / pi = 1/4 + z / 2 + 5/32 (3 z^2 - 1).
-    const Scene pole{.light = k_pi, .b = {0, 0, 1}};
+    const DirectionalLights pole{.light = k_pi, .b = {0, 0, 1}};
     const double Y0 = std::sqrt(1 / (4 * k_pi)), Y1 = std::sqrt(3 / (4 * k_pi)), Y2 = std::sqrt(5 / (4 * k_pi));
     expect_coefficients("directx", pole, {k_pi * Y0, 0, k_pi * Y1, 0, 0, 0, k_pi * Y2});
     expect_coefficients("three", pole, {k_pi * Y0, 0, k_pi * Y1, 0, 0, 0, k_pi * Y2});
     expect_coefficients("unity", pole, {0.25, 0, 0.5, 0, 0, 0, 5.0 / 32});
     expect_coefficients("filament", pole, {0.25, 0, 0.5, 0, 0, 0, 5.0 / 32});
     // From +x: the signs of Condon and Shortley show in index 3; xy, yz and xz vanish; x^2 - y^2 is 1.
-    const Scene right{.light = k_pi, .b = {1, 0, 0}};
+    const DirectionalLights right{.light = k_pi, .b = {1, 0, 0}};
     const double k8 = k_pi * std::sqrt(15 / (16 * k_pi)), k6 = -k_pi * std::sqrt(5 / (16 * k_pi));
     expect_coefficients("directx", right, {k_pi * Y0, 0, 0, -k_pi * Y1, 0, 0, k6, 0, k8});
     expect_coefficients("unity", right, {0.25, 0, 0, 0.5, 0, 0, -5.0 / 64, 0, 15.0 / 64});
 }
 
 TEST(ShConventions, UnityShaderConstants) {
-    const auto nine = exported(convention("unity"), Scene{.light = k_pi, .b = {0, 0, 1}}.coefficients());
+    const auto nine = exported(convention("unity"), DirectionalLights{.light = k_pi, .b = {0, 0, 1}}.coefficients());
     const UnityShaderConstants constants = unity_constants(nine);
     const std::array<float, 4> A = {0, 0, 1, 2 * (0.25f - 5.0f / 32)}, B = {0, 0, 2 * 15.0f / 32, 0};
     for (std::size_t i = 0; i < 4; ++i) {

@@ -99,7 +99,7 @@ TEST(TexturePacking, OneDirectionOfLightIsTheEndOfTheRelativeBandsRange) {
             Directions one(1);
             set_entry(one.view(), 0, d);
             std::vector<float> rows(4 * k_block_size);
-            band.basis->values(one, rows.data());
+            band.basis->linear()->values(one, rows.data());
             std::array<Rgb, 4> result;
             for (std::size_t i = 0; i < 4; ++i) {
                 const float y = rows[i * k_block_size];

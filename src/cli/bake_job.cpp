@@ -72,9 +72,12 @@ Status put_among(Bake& bake, const Baker& baker, std::vector<Page>& fresh) {
 void denoise_if(Switch wanted, std::vector<Page>& pages, const Baker& baker, const Guides& guides) {
     if (wanted == Switch::off) return;
     const Codec* codec = baker.codec();
-    const auto integrals = codec == nullptr ? std::vector<double>() : codec->basis().integrals();
-    const Domain domain = codec == nullptr ? Domain::hemisphere : codec->basis().domain();
-    denoise(pages, baker.layout(), guides, integrals, solid_angle(domain));
+    if (codec == nullptr) return denoise(pages, baker.layout(), guides, {}, solid_angle(Domain::hemisphere));
+    const LinearBasis* basis = codec->basis().linear();
+    if (basis == nullptr)
+        return complain("lobelia: warning: not denoised: the coefficients of " + codec->basis().name() +
+                        " are not linear in the light");
+    denoise(pages, baker.layout(), guides, basis->integrals(), solid_angle(basis->domain()));
 }
 
 void print_summary(const Baker& baker, const Bake& bake) {

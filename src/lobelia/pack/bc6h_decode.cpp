@@ -42,8 +42,8 @@ Endpoints take_endpoints(BitReader& bits, const Mode& mode) {
 }
 
 /// Undoes differences and quantisation.
-Endpoints widened(Endpoints e, const Mode& mode, Sign sign) {
-    const bool is_signed = sign == Sign::signed_halves;
+Endpoints widened(Endpoints e, const Mode& mode, Signedness sign) {
+    const bool is_signed = sign == Signedness::signed_halves;
     const std::size_t count = mode.regions * std::size_t{2};
     for (std::size_t c = 0; c < 3; ++c) {
         for (std::size_t i = 0; i < count; ++i) {
@@ -59,15 +59,15 @@ Endpoints widened(Endpoints e, const Mode& mode, Sign sign) {
 }
 
 /// Scales an interpolated number to the bits of a half.
-std::uint16_t half_of(int value, Sign sign) {
-    if (sign == Sign::unsigned_halves) return static_cast<std::uint16_t>(value * 31 >> 6);
+std::uint16_t half_of(int value, Signedness sign) {
+    if (sign == Signedness::unsigned_halves) return static_cast<std::uint16_t>(value * 31 >> 6);
     const int magnitude = (value < 0 ? -value : value) * 31 >> 5;
     return static_cast<std::uint16_t>(magnitude | (value < 0 ? 0x8000 : 0));
 }
 
 }  // namespace
 
-Halves decode_block(const std::byte* block, Sign sign) {
+Halves decode_block(const std::byte* block, Signedness sign) {
     Halves texels{};
     BitReader bits(block);
     const Mode* mode = take_mode(bits);

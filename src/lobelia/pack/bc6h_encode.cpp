@@ -69,7 +69,7 @@ HWY_INLINE void fill_rows(Texels& t, float floor) {
     }
 }
 
-template <Sign sign>
+template <Signedness sign>
 void load_texels(const float* const* channels, std::size_t stride, Texels& t) {
     const D d;
     float mean[3], largest = 0;
@@ -78,13 +78,13 @@ void load_texels(const float* const* channels, std::size_t stride, Texels& t) {
         for (std::size_t row = 0; row < 4; ++row) std::copy_n(channels[c] + row * stride, 4, values + row * 4);
         V total = hn::Zero(d), low = hn::Set(d, 1e9f), high = hn::Set(d, -1e9f);
         for (std::size_t i = 0; i < k_texels; i += hn::Lanes(d)) {
-            const V lowest = sign == Sign::signed_halves ? hn::Set(d, -k_largest_half) : hn::Zero(d);
+            const V lowest = sign == Signedness::signed_halves ? hn::Set(d, -k_largest_half) : hn::Zero(d);
             const V number = hn::IfThenElseZero(hn::Eq(load(values + i), load(values + i)), load(values + i));
             const V v = hn::Min(hn::Max(number, lowest), hn::Set(d, k_largest_half));
             const V magnitude = hn::Abs(v);
             const VI half = half_bits(magnitude);
             // The least number that decoders scale to this half.
-            const float scale = sign == Sign::signed_halves ? 32.0f / 31 : 64.0f / 31;
+            const float scale = sign == Signedness::signed_halves ? 32.0f / 31 : 64.0f / 31;
             const V wide = hn::CopySign(hn::Ceil(hn::Mul(hn::ConvertTo(d, half), hn::Set(d, scale))), v);
             hn::Store(wide, d, t.wide[c] + i);
             hn::Store(hn::CopySign(hn::Sqrt(magnitude), v), d, t.root[c] + i);
@@ -163,7 +163,7 @@ struct Palette {
     alignas(64) float root[3][k_texels];
 };
 
-template <Sign sign>
+template <Signedness sign>
 HWY_INLINE void fill_palette(const Quantised& q, Palette& palette) {
     const D d;
     const I di;
@@ -180,15 +180,16 @@ HWY_INLINE void fill_palette(const Quantised& q, Palette& palette) {
             const VI w = hn::Load(di, weights + i), a = hn::Load(di, ends[0] + i), b = hn::Load(di, ends[1] + i);
             const VI sum = hn::Add(hn::ShiftLeft<6>(a), hn::Mul(hn::Sub(b, a), w));
             const VI mixed = hn::ShiftRight<6>(hn::Add(sum, hn::Set(di, 32)));
-            const VI half = sign == Sign::signed_halves ? hn::ShiftRight<5>(hn::Mul(hn::Abs(mixed), hn::Set(di, 31)))
-                                                        : hn::ShiftRight<6>(hn::Mul(mixed, hn::Set(di, 31)));
+            const VI half = sign == Signedness::signed_halves
+                                ? hn::ShiftRight<5>(hn::Mul(hn::Abs(mixed), hn::Set(di, 31)))
+                                : hn::ShiftRight<6>(hn::Mul(mixed, hn::Set(di, 31)));
             hn::Store(root_of_half(half, mixed), d, palette.root[c] + i);
         }
     }
 }
 
 /// Chooses the index of least error for each texel; those of anchors lack the highest bit.
-template <Sign sign>
+template <Signedness sign>
 HWY_INLINE void choose_indices(const Texels& t, Candidate& candidate) {
     const D d;
     const I di;
@@ -253,7 +254,7 @@ HWY_INLINE void refine(const Texels& t, const Candidate& candidate, WideEndpoint
 
 /// Whether no texel is further off than the block's range in its widest channel, as a flat block would be at worst.
 /// Endpoints of few bits may be, where a bright channel hardly varies and a dark one does.
-template <Sign sign>
+template <Signedness sign>
 HWY_INLINE bool stays_within(const Texels& t, const Candidate& candidate) {
     Palette palette;
     fill_palette<sign>(candidate.endpoints, palette);
@@ -274,7 +275,7 @@ HWY_INLINE bool stays_within(const Texels& t, const Candidate& candidate) {
 }
 
 /// The number of the half that is nearest to the middle of the block's values.
-template <Sign sign>
+template <Signedness sign>
 std::array<int, 3> middle_of(const Texels& t) {
     std::array<int, 3> middle{};
     for (std::size_t c = 0; c < 3; ++c) {
@@ -282,7 +283,7 @@ std::array<int, 3> middle_of(const Texels& t) {
         const float value = (*low * std::abs(*low) + *high * std::abs(*high)) / 2;
         const int half = half_from_float(std::abs(value));
         // The least number that decoders scale to this half.
-        const int scale = sign == Sign::signed_halves ? 32 : 64;
+        const int scale = sign == Signedness::signed_halves ? 32 : 64;
         middle[c] = (half * scale + 30) / 31 * (value < 0 ? -1 : 1);
     }
     return middle;
@@ -313,7 +314,7 @@ HWY_INLINE WideEndpoints first_lines(const Texels& t, const RegionMoments& m, st
 }
 
 /// Fits a block with one region, or with the two of a partition, and keeps the best of a few rounds.
-template <Sign sign>
+template <Signedness sign>
 void fit(const Texels& t, const RegionMoments& m, std::size_t regions, std::size_t partition, Candidate& best) {
     constexpr int rounds = 3;
     WideEndpoints e = first_lines(t, m, regions, partition);
@@ -330,7 +331,7 @@ void fit(const Texels& t, const RegionMoments& m, std::size_t regions, std::size
 }
 
 /// Fits one region, then the partitions that promise most, where they promise anything.
-template <Sign sign>
+template <Signedness sign>
 Candidate best_candidate(const Texels& t) {
     RegionMoments m;
     alignas(64) float estimates[k_partitions];
@@ -348,7 +349,7 @@ Candidate best_candidate(const Texels& t) {
     return best;
 }
 
-template <Sign sign>
+template <Signedness sign>
 void encode_block(const float* const* channels, std::size_t stride, std::byte* out) {
     Texels t;
     load_texels<sign>(channels, stride, t);
@@ -360,13 +361,14 @@ void encode_block(const float* const* channels, std::size_t stride, std::byte* o
     write_block(best.endpoints, best.partition, best.indices, out);
 }
 
-void EncodeBlocks(const float* const* channels, std::size_t stride, std::size_t blocks, Sign sign, std::byte* out) {
+void EncodeBlocks(const float* const* channels, std::size_t stride, std::size_t blocks, Signedness sign,
+                  std::byte* out) {
     for (std::size_t i = 0; i < blocks; ++i) {
         const float* corner[3] = {channels[0] + 4 * i, channels[1] + 4 * i, channels[2] + 4 * i};
-        if (sign == Sign::signed_halves)
-            encode_block<Sign::signed_halves>(corner, stride, out + i * k_block_bytes);
+        if (sign == Signedness::signed_halves)
+            encode_block<Signedness::signed_halves>(corner, stride, out + i * k_block_bytes);
         else
-            encode_block<Sign::unsigned_halves>(corner, stride, out + i * k_block_bytes);
+            encode_block<Signedness::unsigned_halves>(corner, stride, out + i * k_block_bytes);
     }
 }
 
@@ -378,7 +380,8 @@ namespace lobelia::bc6h {
 
 HWY_EXPORT(EncodeBlocks);
 
-void encode_blocks(const float* const* channels, std::size_t stride, std::size_t blocks, Sign sign, std::byte* out) {
+void encode_blocks(const float* const* channels, std::size_t stride, std::size_t blocks, Signedness sign,
+                   std::byte* out) {
     HWY_DYNAMIC_DISPATCH(EncodeBlocks)(channels, stride, blocks, sign, out);
 }
 

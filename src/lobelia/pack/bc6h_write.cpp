@@ -14,15 +14,15 @@ constexpr std::array<std::uint8_t, 4> k_one_region = {13, 12, 11, 10};
 constexpr std::array<std::uint8_t, 10> k_two_regions = {2, 3, 4, 0, 5, 6, 7, 8, 1, 9};
 
 /// The stored number whose unquantised form is nearest to `wide`, a whole number.
-int quantised(int wide, int bits, Sign sign) {
+int quantised(int wide, int bits, Signedness sign) {
     if (bits >= 16) return wide;
-    const int magnitude = wide < 0 ? -wide : wide, sign_bits = sign == Sign::signed_halves ? 1 : 0;
+    const int magnitude = wide < 0 ? -wide : wide, sign_bits = sign == Signedness::signed_halves ? 1 : 0;
     const int stored = std::min(magnitude >> (16 - bits), (1 << (bits - sign_bits)) - 1);
     return wide < 0 ? -stored : stored;
 }
 
-int unquantised(int stored, int bits, Sign sign) {
-    return sign == Sign::signed_halves ? unquantized_signed(stored, bits) : unquantized_unsigned(stored, bits);
+int unquantised(int stored, int bits, Signedness sign) {
+    return sign == Signedness::signed_halves ? unquantized_signed(stored, bits) : unquantized_unsigned(stored, bits);
 }
 
 /// Whether the differences to w have few enough bits.
@@ -65,7 +65,7 @@ void put_run(const Run& run, int value, BitWriter& bits) {
 
 }  // namespace
 
-Quantised quantised(const WideEndpoints& e, std::size_t regions, Sign sign) {
+Quantised quantised(const WideEndpoints& e, std::size_t regions, Signedness sign) {
     const std::span<const std::uint8_t> order =
         regions == 1 ? std::span<const std::uint8_t>(k_one_region) : std::span<const std::uint8_t>(k_two_regions);
     Quantised q;

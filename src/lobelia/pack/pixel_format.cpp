@@ -114,8 +114,8 @@ constexpr std::array k_formats = {
 
 const Entry& entry_of(PixelFormat format) { return k_formats[static_cast<std::size_t>(format)]; }
 
-bc6h::Sign sign_of(PixelFormat format) {
-    return format == PixelFormat::bc6h_signed ? bc6h::Sign::signed_halves : bc6h::Sign::unsigned_halves;
+bc6h::Signedness sign_of(PixelFormat format) {
+    return format == PixelFormat::bc6h_signed ? bc6h::Signedness::signed_halves : bc6h::Signedness::unsigned_halves;
 }
 
 bool is_aligned(const std::byte* bytes) { return reinterpret_cast<std::uintptr_t>(bytes) % 4 == 0; }
