@@ -17,7 +17,7 @@ struct Quantised {
 };
 
 /// The most precise mode of this many regions whose differences hold the endpoints.
-[[nodiscard]] Quantised quantised(const WideEndpoints& e, std::size_t regions, Sign sign);
+[[nodiscard]] Quantised quantised(const WideEndpoints& e, std::size_t regions, Signedness sign);
 
 /// One region in the most precise mode, both of its ends these bits of halves: they are kept exactly.
 [[nodiscard]] Quantised flat(const std::array<int, 3>& wide);
