@@ -8,9 +8,9 @@
 #include "baker/output/bake_folder.h"
 #include "baker/output/scene_copy.h"
 #include "baker/render/render.h"
+#include "cli/bake_input.h"
 #include "cli/camera.h"
 #include "cli/common.h"
-#include "cli/eval_bake.h"
 #include "cli/scene_input.h"
 #include "cli/verbs.h"
 #include "io/write_image.h"
@@ -58,20 +58,10 @@ Result<Image> render_scene(const Options& options, const Scene& scene) {
     return finished(render_paths(tracer, *camera, options.render));
 }
 
-/// The scene of a bake: the copy in its folder, or the embedded one of its name.
-Result<LoadedScene> scene_of(const Options& options, const Manifest& manifest) {
-    const fs::path folder = bake_folder(options.scene.path);
-    SceneOptions scene = options.scene;
-    scene.uv_set = SceneOptions().uv_set;
-    scene.path = manifest.scene ? (folder / *manifest.scene).string() : manifest.scene_name;
-    if (!scene.environment && manifest.environment) scene.environment = (folder / *manifest.environment).string();
-    return load_scene(scene);
-}
-
 Result<Image> render_baked(const Options& options) {
     const auto bake = read_bake(options.scene.path);
     if (!bake) return bake.error();
-    const auto scene = scene_of(options, bake->manifest);
+    const auto scene = load_scene_of_bake(options.scene, bake->manifest);
     if (!scene) return scene.error();
     for (const auto& warning : scene->warnings) complain("lobelia: warning: " + warning);
     if (options.truth) {

@@ -30,12 +30,13 @@ Directions tilted_normals() {
     return normals;
 }
 
-/// One basis with one encoder, and all ways to read it.
+/// One basis with one encoder, all ways to store it and all ways to read it.
 struct Subject {
     CodecName name;  ///< without evaluator
     std::shared_ptr<const Encoder> encoder;
+    std::vector<const Storage*> storages;  ///< null first: as solved
     std::vector<std::shared_ptr<const Evaluator>> evaluators;
-    std::size_t first_reading = 0;  ///< of its evaluators, among all
+    std::size_t first_reading = 0;  ///< of its storages and evaluators, among all
 };
 
 /// Sums over texels, for each reading and normal class.
@@ -53,11 +54,16 @@ class BakeStudy {
             const auto basis = make_basis(basis_name);
             if (!basis) return basis.error();
             for (const auto& encoder_name : encoder_names(**basis)) {
-                Subject method{
-                    {basis_name, encoder_name, {}}, make_encoder(encoder_name, *basis).value(), {}, readings_};
+                Subject method{{basis_name, encoder_name, {}},
+                               make_encoder(encoder_name, *basis).value(),
+                               {nullptr},
+                               {},
+                               readings_};
+                for (const Storage* storage : options_.storages)
+                    if (suits(*storage, coefficient_traits(*method.encoder))) method.storages.push_back(storage);
                 for (const auto& evaluator : (*basis)->evaluator_names())
                     method.evaluators.push_back(make_evaluator(evaluator, **basis).value());
-                readings_ += method.evaluators.size();
+                readings_ += method.storages.size() * method.evaluators.size();
                 methods_.push_back(std::move(method));
             }
         }
@@ -80,11 +86,12 @@ class BakeStudy {
         });
     }
 
-    [[nodiscard]] Study result() const;
+    [[nodiscard]] BakedCodecs result() const;
 
   private:
     void judge(std::size_t texel, std::vector<Sums>& sums, double& mean) const;
-    void compare(const Subject& method, std::span<const Rgb> c, ColourView truth, std::vector<Sums>& sums) const;
+    /// Adds to the sums of each evaluator.
+    void compare(const Subject& method, std::span<const Rgb> c, ColourView truth, std::span<Sums> sums) const;
 
     const Baker& baker_;
     const BakeStudyOptions& options_;
@@ -134,15 +141,19 @@ void BakeStudy::judge(std::size_t index, std::vector<Sums>& sums, double& mean) 
     for (std::size_t m = 0; m < methods_.size(); ++m) {
         std::vector<Rgb> c(methods_[m].encoder->basis().size());
         methods_[m].encoder->solve(states[m], c);
-        compare(methods_[m], c, truth, sums);
+        std::span<Sums> rest = std::span(sums).subspan(methods_[m].first_reading);
+        for (const Storage* storage : methods_[m].storages) {
+            const auto traits = coefficient_traits(*methods_[m].encoder);
+            compare(methods_[m], storage == nullptr ? c : stored_and_read(*storage, traits, c), truth, rest);
+            rest = rest.subspan(methods_[m].evaluators.size());
+        }
     }
 }
 
-void BakeStudy::compare(const Subject& method, std::span<const Rgb> c, ColourView truth,
-                        std::vector<Sums>& sums) const {
+void BakeStudy::compare(const Subject& method, std::span<const Rgb> c, ColourView truth, std::span<Sums> sums) const {
     Colours read(k_normals);
     for (std::size_t e = 0; e < method.evaluators.size(); ++e) {
-        Sums& sum = sums[method.first_reading + e];
+        Sums& sum = sums[e];
         method.evaluators[e]->signed_irradiance(c, normals_, read);
         for (std::size_t j = 0; j < k_normals; ++j)
             if (luminance(colour_at(read, j)) < 0) ++sum.negative;
@@ -154,13 +165,13 @@ void BakeStudy::compare(const Subject& method, std::span<const Rgb> c, ColourVie
     }
 }
 
-Study BakeStudy::result() const {
-    std::size_t texels = 0;
+BakedCodecs BakeStudy::result() const {
+    BakedCodecs result;
     double mean = 0;
     std::vector<Sums> totals(readings_);
     for (std::size_t k = 0; k < means_.size(); ++k) {
         if (!(means_[k] > 0)) continue;
-        ++texels;
+        ++result.texels;
         mean += means_[k];
         for (std::size_t r = 0; r < readings_; ++r) {
             totals[r].at_normal += sums_[k][r].at_normal;
@@ -168,58 +179,72 @@ Study BakeStudy::result() const {
             totals[r].negative += sums_[k][r].negative;
         }
     }
-    const auto count = static_cast<double>(texels);
+    const auto count = static_cast<double>(result.texels);
     mean /= count;
-
-    // The best reading of each method, and the methods by their error at tilted normals.
-    struct Row {
-        std::string name;
-        std::size_t floats;
-        double at_normal, tilted, negative;
-    };
-    std::vector<Row> rows;
     for (const Subject& method : methods_) {
-        std::vector<Row> readings;
-        for (std::size_t e = 0; e < method.evaluators.size(); ++e) {
-            const Sums& sum = totals[method.first_reading + e];
-            CodecName name = method.name;
-            name.evaluator = method.evaluators[e]->name();
-            readings.push_back({name.str(), 3 * method.encoder->basis().size(), std::sqrt(sum.at_normal / count) / mean,
-                                std::sqrt(sum.tilted / (count * (k_normals - 1))) / mean,
-                                static_cast<double>(sum.negative) / (count * k_normals)});
+        const Sums* sum = totals.data() + method.first_reading;
+        const auto traits = coefficient_traits(*method.encoder);
+        for (const Storage* storage : method.storages) {
+            const double bytes = storage == nullptr ? 12.0 * static_cast<double>(method.encoder->basis().size())
+                                                    : bytes_per_texel(storage->layout(traits));
+            for (const auto& evaluator : method.evaluators) {
+                result.codecs.push_back({{method.name.basis, method.name.encoder, evaluator->name()},
+                                         storage,
+                                         bytes,
+                                         std::sqrt(sum->at_normal / count) / mean,
+                                         std::sqrt(sum->tilted / (count * (k_normals - 1))) / mean,
+                                         static_cast<double>(sum->negative) / (count * k_normals)});
+                ++sum;
+            }
         }
-        rows.push_back(*std::min_element(readings.begin(), readings.end(),
-                                         [](const Row& a, const Row& b) { return a.tilted < b.tilted; }));
     }
-    std::stable_sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) { return a.tilted < b.tilted; });
+    return result;
+}
 
-    Study study;
-    study.name = "bake";
-    study.title = "Irradiance of baked codecs against a long reference";
-    study.summary = fmt::format(
-        "{} texels, {} samples each for the codecs and {} for the reference; RMS over texels of the "
-        "luminance of E, over its mean. Normals are tilted by up to 60 degrees.",
-        texels, options_.samples, options_.reference_samples);
-    Study::Table& table = study.tables.emplace_back();
-    table.title = study.title;
-    table.columns = {"codec", "floats", "E at the normal", "E at tilted normals", "negative"};
-    for (const Row& row : rows)
-        table.rows.push_back({row.name, std::to_string(row.floats), table_number(row.at_normal, 3),
-                              table_number(row.tilted, 3), fmt::format("{:.2f} %", 100 * row.negative)});
-    return study;
+/// The best reading of each basis and encoder, ordered by error at tilted normals.
+std::vector<BakedCodec> best_readings(std::vector<BakedCodec> codecs) {
+    std::stable_sort(codecs.begin(), codecs.end(),
+                     [](const BakedCodec& a, const BakedCodec& b) { return a.tilted < b.tilted; });
+    std::set<std::pair<std::string, std::string>> seen;
+    std::erase_if(codecs, [&](const BakedCodec& c) { return !seen.emplace(c.name.basis, c.name.encoder).second; });
+    return codecs;
 }
 
 }  // namespace
 
-Result<Study> study_bake(const Scene& scene, const BakeOptions& bake, const BakeStudyOptions& options,
-                         const std::atomic<bool>& stop, const std::function<void(double)>& progress) {
+Result<BakedCodecs> judge_baked_codecs(const Scene& scene, const BakeOptions& bake, const BakeStudyOptions& options,
+                                       const std::atomic<bool>& stop, const std::function<void(double)>& progress) {
     auto baker = Baker::make(scene, bake);
     if (!baker) return baker.error();
     BakeStudy study(**baker, options);
     if (auto status = study.find_methods(); !status) return status.error();
     study.run(stop, progress);
     if (stop) return Error{"stopped"};
-    return study.result();
+    BakedCodecs judged = study.result();
+    if (judged.texels == 0) return Error{"no texel of the scene is valid and lit"};
+    return judged;
+}
+
+Result<Study> study_bake(const Scene& scene, const BakeOptions& bake, const BakeStudyOptions& options,
+                         const std::atomic<bool>& stop, const std::function<void(double)>& progress) {
+    BakeStudyOptions as_solved = options;
+    as_solved.storages.clear();
+    const auto judged = judge_baked_codecs(scene, bake, as_solved, stop, progress);
+    if (!judged) return judged.error();
+    Study study;
+    study.name = "bake";
+    study.title = "Irradiance of baked codecs against a long reference";
+    study.summary = fmt::format(
+        "{} texels, {} samples each for the codecs and {} for the reference; RMS over texels of the "
+        "luminance of E, over its mean. Normals are tilted by up to 60 degrees.",
+        judged->texels, options.samples, options.reference_samples);
+    Study::Table& table = study.tables.emplace_back();
+    table.title = study.title;
+    table.columns = {"codec", "floats", "E at the normal", "E at tilted normals", "negative"};
+    for (const BakedCodec& c : best_readings(judged->codecs))
+        table.rows.push_back({c.name.str(), fmt::format("{:.0f}", c.bytes / 4), table_number(c.at_normal, 3),
+                              table_number(c.tilted, 3), fmt::format("{:.2f} %", 100 * c.negative_share)});
+    return study;
 }
 
 }  // namespace lobelia

@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "lobelia/math.h"
+#include "lobelia/pack/nearest_whole.h"
 
 namespace lobelia::texels {
 
@@ -22,7 +23,7 @@ inline constexpr float k_largest_rgb9e5 = 65408;
     const auto floor_log2 = [](float v) { return static_cast<int>(std::bit_cast<std::uint32_t>(v) >> 23) - 127; };
     std::uint32_t exponent = static_cast<std::uint32_t>(std::max(floor_log2(largest), -16) + 16);
     const auto steps_of = [](std::uint32_t e) { return std::bit_cast<float>((127 + 24 - e) << 23); };
-    const auto rounded = [](float v, float steps) { return static_cast<std::uint32_t>(v * steps + 0.5f); };
+    const auto rounded = [](float v, float steps) { return nearest_whole(v * steps); };
     if (rounded(largest, steps_of(exponent)) == 512) ++exponent;
     const float steps = steps_of(exponent);
     return rounded(r, steps) | rounded(g, steps) << 9 | rounded(b, steps) << 18 | exponent << 27;

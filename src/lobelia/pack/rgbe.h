@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "lobelia/math.h"
+#include "lobelia/pack/nearest_whole.h"
 
 namespace lobelia::texels {
 
@@ -24,7 +25,7 @@ inline constexpr float k_least_rgbe = 0x1p-100f;
     // The largest mantissa is 128 to 255.
     std::uint32_t exponent = (std::bit_cast<std::uint32_t>(largest) >> 23) + 2;
     const auto steps_of = [](std::uint32_t e) { return std::bit_cast<float>((127 + 136 - e) << 23); };
-    const auto rounded = [](float v, float steps) { return static_cast<std::uint32_t>(v * steps + 0.5f); };
+    const auto rounded = [](float v, float steps) { return nearest_whole(v * steps); };
     if (rounded(largest, steps_of(exponent)) == 256) ++exponent;
     const float steps = steps_of(exponent);
     return rounded(r, steps) | rounded(g, steps) << 8 | rounded(b, steps) << 16 | exponent << 24;
