@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -21,6 +22,7 @@ struct Options {
     EnvironmentOptions environment;  ///< its path may name a bake or a scene, too
     AdviceOptions advice;
     std::string need = "irradiance";
+    double target = 100 * AdviceOptions().target;  ///< [percent]
     Domain domain = Domain::sphere;
     std::size_t texels = 300;
     std::string out;
@@ -30,6 +32,16 @@ std::vector<const Storage*> all_storages() {
     std::vector<const Storage*> all;
     for (const Storage& storage : storages()) all.push_back(&storage);
     return all;
+}
+
+/// Those whose error depends on nothing but a texel's own coefficients.
+std::vector<const Storage*> storages_of_single_texels() {
+    std::vector<const Storage*> single = all_storages();
+    std::erase_if(single, [](const Storage* storage) {
+        const CoefficientTraits any{1, true, true, {1}};
+        return shares_texels(storage->layout(any));
+    });
+    return single;
 }
 
 double mean_of(Rgb colour) { return (double{colour.r} + colour.g + colour.b) / 3; }
@@ -58,7 +70,7 @@ Result<std::vector<Candidate>> candidates_for_environment(const Options& options
     comparing.pictures = comparing.convergence = false;
     const auto first = compare(environment->image, all_codecs(), comparing, progress_bar());
     if (!first) return first.error();
-    comparing.storages = all_storages();
+    comparing.storages = storages_of_single_texels();
     const auto comparison = compare(environment->image, best_codecs(*first, options), comparing, progress_bar());
     if (!comparison) return comparison.error();
 
@@ -116,7 +128,7 @@ void print_advice(const Advice& advice) {
     const std::string error = fmt::format("{} error", to_string(advice.options.need));
     fmt::print("{:<42} {:<14} {:>8} {:>17} {:>8}\n", "codec", "storage", "bytes", error, "ns");
     // Of the front, what is best for its bytes; the page has all of it.
-    double least = HUGE_VAL;
+    double least = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < advice.front.size(); ++i) {
         const Candidate& c = advice.front[i];
         if (c.error >= least && i != advice.recommended) continue;
@@ -139,6 +151,7 @@ Status write_advice(const Advice& advice, const std::string& subject, const std:
 
 Status advise_verb(Options options) {
     options.advice.need = options.need == "radiance" ? Need::radiance : Need::irradiance;
+    options.advice.target = options.target / 100;
     if (!options.out.empty())
         if (auto status = check_folder(options.out); !status) return status;
     const std::string& path = options.environment.path;
@@ -166,13 +179,19 @@ Verb add_advise(CLI::App& app) {
     command->add_option("--budget", options->advice.budget, "Bytes for a texel or probe at most (default: no limit)")
         ->check(number_in(1, 1e6));
     command
+        ->add_option("--target", options->target,
+                     "The error that is small enough, in percent of the mean: the fewest bytes that reach it are "
+                     "recommended")
+        ->check(number_in(0, 1000))
+        ->capture_default_str();
+    command
         ->add_option("--domain", options->domain,
                      "Of an environment: the sphere, for probes, or the hemisphere above z = 0, for surfaces")
         ->transform(CLI::CheckedTransformer(
             std::map<std::string, Domain>{{"sphere", Domain::sphere}, {"hemisphere", Domain::hemisphere}}))
         ->default_str("sphere");
-    command->add_option("--texels", options->texels, "Of a scene: how many to judge by, spread evenly, 1 to 100000")
-        ->check(CLI::Range(std::size_t{1}, std::size_t{100'000}))
+    command->add_option("--texels", options->texels, "Of a scene: how many to judge by, spread evenly, 1 to 10000")
+        ->check(CLI::Range(std::size_t{1}, std::size_t{10'000}))
         ->capture_default_str();
     command->add_option("--out", options->out, "Folder for advice.html and advice.json, with the whole front");
     return {command, [options] { return advise_verb(*options); }};

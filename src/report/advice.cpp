@@ -15,14 +15,16 @@ int time_class(const Candidate& c) {
     return c.nanoseconds > 0 ? static_cast<int>(std::floor(std::log2(c.nanoseconds))) : 0;
 }
 
+/// Twice the time may be noise, four times it is not: what is recommended must not depend on noise.
+bool is_faster(const Candidate& a, const Candidate& b) { return time_class(a) + 2 <= time_class(b); }
+
 bool beats(const Candidate& a, const Candidate& b) {
-    const int ta = time_class(a), tb = time_class(b);
-    const bool no_worse = a.error <= b.error && a.bytes <= b.bytes && ta <= tb;
-    return no_worse && (a.error < b.error || a.bytes < b.bytes || ta < tb);
+    const bool no_worse = a.error <= b.error && a.bytes <= b.bytes && time_class(a) <= time_class(b);
+    return no_worse && (a.error < b.error || a.bytes < b.bytes || is_faster(a, b));
 }
 
 std::vector<Candidate> front_of(std::vector<Candidate> candidates) {
-    std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
+    std::stable_sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
         return std::pair(a.bytes, a.error) < std::pair(b.bytes, b.error);
     });
     std::vector<Candidate> front;
@@ -30,7 +32,7 @@ std::vector<Candidate> front_of(std::vector<Candidate> candidates) {
         const bool beaten =
             std::any_of(candidates.begin(), candidates.end(), [&](const Candidate& other) { return beats(other, c); });
         const bool repeated = std::any_of(front.begin(), front.end(), [&](const Candidate& other) {
-            return other.error == c.error && other.bytes == c.bytes && time_class(other) == time_class(c);
+            return other.error == c.error && other.bytes == c.bytes && !is_faster(c, other);
         });
         if (!beaten && !repeated) front.push_back(c);
     }
@@ -39,8 +41,18 @@ std::vector<Candidate> front_of(std::vector<Candidate> candidates) {
 
 std::string text_of(const Candidate& c) { return c.codec.str() + " in " + c.storage; }
 
+/// The fewest bytes within budget and target.
+std::optional<std::size_t> smallest_good(const std::vector<Candidate>& front, const AdviceOptions& options) {
+    for (std::size_t i = 0; i < front.size(); ++i)
+        if (front[i].error <= options.target) {
+            if (options.budget && front[i].bytes > *options.budget) return std::nullopt;
+            return i;
+        }
+    return std::nullopt;
+}
+
 /// The least error within the budget; of those within 2 % of it, the fewest bytes.
-std::size_t within_budget(const std::vector<Candidate>& front, double budget) {
+std::size_t best_within(const std::vector<Candidate>& front, double budget) {
     double least = HUGE_VAL;
     for (const Candidate& c : front)
         if (c.bytes <= budget) least = std::min(least, c.error);
@@ -59,6 +71,28 @@ std::size_t balanced(const std::vector<Candidate>& front) {
         front.begin());
 }
 
+/// Chooses and says why, as far as the choice itself goes.
+void recommend(Advice& advice) {
+    const AdviceOptions& options = advice.options;
+    const std::string small_enough =
+        fmt::format("{:.3g} % of the mean {}", 100 * options.target, to_string(options.need));
+    std::string why;
+    if (const auto good = smallest_good(advice.front, options)) {
+        advice.recommended = *good;
+        why = "is the smallest within " + small_enough;
+    } else if (options.budget) {
+        advice.recommended = best_within(advice.front, *options.budget);
+        why = fmt::format("has the least error that {:.4g} bytes can buy, though not within {}", *options.budget,
+                          small_enough);
+    } else {
+        advice.recommended = balanced(advice.front);
+        why = "has the best balance of bytes and error, where nothing is within " + small_enough;
+    }
+    const Candidate& chosen = advice.front[advice.recommended];
+    advice.reason =
+        fmt::format("{} {}: {:.3g} % in {:.4g} bytes", text_of(chosen), why, 100 * chosen.error, chosen.bytes);
+}
+
 /// The next of the front with fewer bytes, or with less error, than the recommended one; null where there is none.
 const Candidate* cheaper(const Advice& advice) {
     const Candidate& chosen = advice.front[advice.recommended];
@@ -75,22 +109,15 @@ const Candidate* better(const Advice& advice) {
     return best;
 }
 
-std::string reason_of(const Advice& advice) {
-    const Candidate& chosen = advice.front[advice.recommended];
-    std::string reason =
-        advice.options.budget
-            ? fmt::format(
-                  "{} has the least error of {} that {:.4g} bytes can buy, {:.3g} % of the mean, in {:.4g} bytes",
-                  text_of(chosen), to_string(advice.options.need), *advice.options.budget, 100 * chosen.error,
-                  chosen.bytes)
-            : fmt::format("{} has the best balance of bytes and error of {}: {:.3g} % of the mean in {:.4g} bytes",
-                          text_of(chosen), to_string(advice.options.need), 100 * chosen.error, chosen.bytes);
+/// Says what a little less and a little more would give.
+void add_neighbours(Advice& advice) {
     if (const Candidate* next = cheaper(advice))
-        reason += fmt::format("; with less, {} at {:.4g} bytes is off by {:.3g} %", text_of(*next), next->bytes,
-                              100 * next->error);
+        advice.reason += fmt::format("; with less, {} at {:.4g} bytes is off by {:.3g} %", text_of(*next), next->bytes,
+                                     100 * next->error);
     if (const Candidate* next = better(advice))
-        reason += fmt::format("; for {:.3g} %, {} takes {:.4g} bytes", 100 * next->error, text_of(*next), next->bytes);
-    return reason + ".";
+        advice.reason +=
+            fmt::format("; for {:.3g} %, {} takes {:.4g} bytes", 100 * next->error, text_of(*next), next->bytes);
+    advice.reason += ".";
 }
 
 std::string nanoseconds_text(const Candidate& c) {
@@ -109,8 +136,8 @@ Result<Advice> advise(std::vector<Candidate> candidates, const AdviceOptions& op
     if (const Candidate& smallest = advice.front.front(); options.budget && smallest.bytes > *options.budget)
         return Error{fmt::format("nothing fits {:.4g} bytes: the smallest is {} with {:.4g}", *options.budget,
                                  text_of(smallest), smallest.bytes)};
-    advice.recommended = options.budget ? within_budget(advice.front, *options.budget) : balanced(advice.front);
-    advice.reason = reason_of(advice);
+    recommend(advice);
+    add_neighbours(advice);
     return advice;
 }
 
@@ -120,7 +147,10 @@ nlohmann::json to_json(const Advice& advice) {
         if (c.nanoseconds > 0) j["evaluate_ns"] = c.nanoseconds;
         return j;
     };
-    nlohmann::json j = {{"format", 1}, {"need", to_string(advice.options.need)}, {"reason", advice.reason}};
+    nlohmann::json j = {{"format", 1},
+                        {"need", to_string(advice.options.need)},
+                        {"target", advice.options.target},
+                        {"reason", advice.reason}};
     if (advice.options.budget) j["budget"] = *advice.options.budget;
     j["recommended"] = entry(advice.front[advice.recommended]);
     for (const Candidate& c : advice.front) j["front"].push_back(entry(c));

@@ -26,7 +26,8 @@ struct Candidate {
 
 struct AdviceOptions {
     Need need = Need::irradiance;
-    std::optional<double> budget = {};  ///< bytes for a texel or probe
+    std::optional<double> budget = {};  ///< bytes for a texel or probe at most
+    double target = 0.05;               ///< the error that is small enough
 };
 
 struct Advice {
@@ -37,9 +38,11 @@ struct Advice {
 };
 
 /// The front: candidates to which no other is at least equal in error, bytes and time and better in one. Times count by
-/// powers of two, for they are noisy. Recommended is, within the budget, the least error (of those within 2 % of it the
-/// fewest bytes); without a budget the least product of error and bytes, so that a share of the bytes costs more than
-/// its inverse in error, and a multiple of them gains less. Error: no candidates, or none within the budget.
+/// powers of two, and of equals the first is kept, unless it takes four times as long: they are noisy. Recommended is
+/// what takes the fewest bytes of all within budget and target. Where the budget rules that out, it is the least error
+/// that it can buy (of those within 2 % of it the fewest bytes); where nothing at all reaches the target, the least
+/// product of error and bytes: half the bytes would more than double the error, and twice the bytes gain less than half
+/// of it. Error: no candidates, or none within the budget.
 [[nodiscard]] Result<Advice> advise(std::vector<Candidate> candidates, const AdviceOptions& options = {});
 
 /// All of it, for scripts.

@@ -2,13 +2,14 @@
 #include "baker/bake/study_bake.h"
 
 #include <fmt/format.h>
-#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <mutex>
 #include <set>
+#include <tuple>
 
 #include "baker/atlas/texels.h"
 #include "lobelia/environment.h"
@@ -45,6 +46,54 @@ struct Sums {
     std::size_t negative = 0;
 };
 
+/// What a texel gave: the coefficients of each method, and the truth.
+struct Encoded {
+    std::vector<std::vector<Rgb>> c;
+    Colours truth{k_normals};
+    bool valid = true;
+};
+
+/// Texels that are judged together: those of a block, row by row, or one alone.
+using Unit = std::vector<std::size_t>;
+constexpr std::size_t k_block_side = 4, k_block_texels = k_block_side * k_block_side;
+
+/// One for each texel, or the whole blocks.
+std::vector<Unit> all_units(const TexelMap& map, bool blocks) {
+    std::vector<Unit> units;
+    if (!blocks) {
+        for (std::size_t i = 0; i < map.texels.size(); ++i) units.push_back({i});
+        return units;
+    }
+    std::map<std::tuple<std::size_t, std::size_t, std::size_t>, Unit> found;
+    for (std::size_t i = 0; i < map.texels.size(); ++i) {
+        const CoveredTexel& at = map.texels[i];
+        found[{at.page, at.y / k_block_side, at.x / k_block_side}].push_back(i);
+    }
+    for (auto& [place, unit] : found)
+        if (unit.size() == k_block_texels) units.push_back(std::move(unit));
+    return units;
+}
+
+/// The coefficients of a block as they come back from storage.
+std::vector<std::vector<Rgb>> through_storage(const Storage& storage, const CoefficientTraits& traits,
+                                              std::span<const std::vector<Rgb>> c) {
+    std::vector<std::vector<float>> planes(3 * traits.count, std::vector<float>(k_block_texels));
+    for (std::size_t t = 0; t < c.size(); ++t)
+        for (std::size_t i = 0; i < traits.count; ++i) {
+            planes[3 * i][t] = c[t][i].r;
+            planes[3 * i + 1][t] = c[t][i].g;
+            planes[3 * i + 2][t] = c[t][i].b;
+        }
+    const TextureLayout layout = storage.layout(traits);
+    const MutableCoefficientPlanes block(k_block_side, k_block_side, std::span(planes), traits.count);
+    unpack(layout, pack(layout, block), block);
+    std::vector<std::vector<Rgb>> read(c.size(), std::vector<Rgb>(traits.count));
+    for (std::size_t t = 0; t < c.size(); ++t)
+        for (std::size_t i = 0; i < traits.count; ++i)
+            read[t][i] = {planes[3 * i][t], planes[3 * i + 1][t], planes[3 * i + 2][t]};
+    return read;
+}
+
 class BakeStudy {
   public:
     BakeStudy(const Baker& baker, const BakeStudyOptions& options) : baker_(baker), options_(options) {}
@@ -71,14 +120,16 @@ class BakeStudy {
     }
 
     void run(const std::atomic<bool>& stop, const std::function<void(double)>& progress) {
-        const std::size_t all = baker_.texels().texels.size(), count = std::min(options_.texels, all);
-        sums_.assign(count, std::vector<Sums>(readings_));
-        means_.assign(count, 0);
+        const bool blocks = !options_.storages.empty();
+        const auto units = all_units(baker_.texels(), blocks);
+        const std::size_t wanted = blocks ? (options_.texels + k_block_texels - 1) / k_block_texels : options_.texels;
+        const std::size_t count = std::min(wanted, units.size());
+        parts_.resize(count);
         std::atomic<std::size_t> done = 0;
         std::mutex mutex;
         tbb::parallel_for(std::size_t{0}, count, [&](std::size_t k) {
             if (stop) return;
-            judge(k * all / count, sums_[k], means_[k]);
+            judge(units[k * units.size() / count], parts_[k]);
             ++done;
             if (!progress || !mutex.try_lock()) return;
             progress(static_cast<double>(done) / static_cast<double>(count));
@@ -89,7 +140,15 @@ class BakeStudy {
     [[nodiscard]] BakedCodecs result() const;
 
   private:
-    void judge(std::size_t texel, std::vector<Sums>& sums, double& mean) const;
+    /// What a unit adds to the result.
+    struct Part {
+        std::size_t texels = 0;  ///< that are valid
+        double mean = 0;         ///< sum of their irradiances
+        std::vector<Sums> sums;  ///< for each reading
+    };
+
+    [[nodiscard]] Encoded encode(std::size_t texel) const;
+    void judge(const Unit& unit, Part& part) const;
     /// Adds to the sums of each evaluator.
     void compare(const Subject& method, std::span<const Rgb> c, ColourView truth, std::span<Sums> sums) const;
 
@@ -98,11 +157,10 @@ class BakeStudy {
     Directions normals_ = tilted_normals();
     std::vector<Subject> methods_;
     std::size_t readings_ = 0;
-    std::vector<std::vector<Sums>> sums_;
-    std::vector<double> means_;  ///< of each texel, 0 where it is invalid
+    std::vector<Part> parts_;
 };
 
-void BakeStudy::judge(std::size_t index, std::vector<Sums>& sums, double& mean) const {
+Encoded BakeStudy::encode(std::size_t index) const {
     std::vector<Texel> texel;
     const PathTracer& tracer = baker_.tracer();
     make_texels(baker_.atlas(), baker_.texels(), index, index + 1, tracer, Switch::on, texel);
@@ -113,11 +171,12 @@ void BakeStudy::judge(std::size_t index, std::vector<Sums>& sums, double& mean) 
     gathering.dark_below = Switch::on;
 
     // The same samples for all: the first of them go to the encoders, all of them to the reference.
+    Encoded result;
     std::vector<std::vector<float>> states;
     for (const Subject& method : methods_) states.emplace_back(method.encoder->state_size());
     const auto scratch = tracer.make_scratch();
     GatherBuffer buffer;
-    Colours truth(k_normals), part(k_normals);
+    Colours part(k_normals);
     std::uint32_t back_faces = 0;
     for (std::uint32_t first = 0; first < options_.reference_samples; first += k_batch) {
         gather(tracer, {&receiver, 1}, {first, k_batch}, gathering, buffer, *scratch);
@@ -126,7 +185,7 @@ void BakeStudy::judge(std::size_t index, std::vector<Sums>& sums, double& mean) 
         for (const SampleView& view : {above, buffer.sources(0)}) {
             irradiance_sum(view, normals_, part);
             for (std::size_t c = 0; c < 3; ++c)
-                for (std::size_t j = 0; j < k_normals; ++j) truth.channel(c)[j] += part.channel(c)[j];
+                for (std::size_t j = 0; j < k_normals; ++j) result.truth.channel(c)[j] += part.channel(c)[j];
         }
         if (first >= options_.samples) continue;
         for (std::size_t m = 0; m < methods_.size(); ++m) {
@@ -135,16 +194,33 @@ void BakeStudy::judge(std::size_t index, std::vector<Sums>& sums, double& mean) 
             encoder.add_sources(states[m], buffer.sources(0));
         }
     }
-    if (2 * back_faces > options_.reference_samples) return;
-    scale(truth, static_cast<float>(2 * k_pi / options_.reference_samples));
-    mean = luminance(colour_at(truth, 0));
+    scale(result.truth, static_cast<float>(2 * k_pi / options_.reference_samples));
+    result.valid = 2 * back_faces <= options_.reference_samples && luminance(colour_at(result.truth, 0)) > 0;
     for (std::size_t m = 0; m < methods_.size(); ++m) {
-        std::vector<Rgb> c(methods_[m].encoder->basis().size());
-        methods_[m].encoder->solve(states[m], c);
-        std::span<Sums> rest = std::span(sums).subspan(methods_[m].first_reading);
+        result.c.emplace_back(methods_[m].encoder->basis().size());
+        methods_[m].encoder->solve(states[m], result.c.back());
+    }
+    return result;
+}
+
+void BakeStudy::judge(const Unit& unit, Part& part) const {
+    part.sums.resize(readings_);
+    std::vector<Encoded> texels;
+    for (const std::size_t texel : unit) texels.push_back(encode(texel));
+    for (const Encoded& texel : texels)
+        if (texel.valid) {
+            ++part.texels;
+            part.mean += luminance(colour_at(texel.truth, 0));
+        }
+    for (std::size_t m = 0; m < methods_.size(); ++m) {
+        std::vector<std::vector<Rgb>> solved;
+        for (Encoded& texel : texels) solved.push_back(std::move(texel.c[m]));
+        const auto traits = coefficient_traits(*methods_[m].encoder);
+        std::span<Sums> rest = std::span(part.sums).subspan(methods_[m].first_reading);
         for (const Storage* storage : methods_[m].storages) {
-            const auto traits = coefficient_traits(*methods_[m].encoder);
-            compare(methods_[m], storage == nullptr ? c : stored_and_read(*storage, traits, c), truth, rest);
+            const auto read = storage == nullptr ? solved : through_storage(*storage, traits, solved);
+            for (std::size_t t = 0; t < texels.size(); ++t)
+                if (texels[t].valid) compare(methods_[m], read[t], texels[t].truth, rest);
             rest = rest.subspan(methods_[m].evaluators.size());
         }
     }
@@ -169,14 +245,13 @@ BakedCodecs BakeStudy::result() const {
     BakedCodecs result;
     double mean = 0;
     std::vector<Sums> totals(readings_);
-    for (std::size_t k = 0; k < means_.size(); ++k) {
-        if (!(means_[k] > 0)) continue;
-        ++result.texels;
-        mean += means_[k];
-        for (std::size_t r = 0; r < readings_; ++r) {
-            totals[r].at_normal += sums_[k][r].at_normal;
-            totals[r].tilted += sums_[k][r].tilted;
-            totals[r].negative += sums_[k][r].negative;
+    for (const Part& part : parts_) {
+        result.texels += part.texels;
+        mean += part.mean;
+        for (std::size_t r = 0; r < part.sums.size(); ++r) {
+            totals[r].at_normal += part.sums[r].at_normal;
+            totals[r].tilted += part.sums[r].tilted;
+            totals[r].negative += part.sums[r].negative;
         }
     }
     const auto count = static_cast<double>(result.texels);

@@ -11,7 +11,7 @@
 namespace lobelia {
 
 struct BakeStudyOptions {
-    std::size_t texels = 1000;                  ///< chosen evenly from the atlas
+    std::size_t texels = 1000;                  ///< chosen evenly from the atlas; with storages, 4 x 4 side by side
     std::uint32_t samples = 256;                ///< for each codec; a multiple of 64
     std::uint32_t reference_samples = 16384;    ///< whose irradiance is taken as true; more of the same sequence
     std::vector<std::string> bases;             ///< empty: all of the list
