@@ -6,6 +6,7 @@
 #include <random>
 
 #include "baker/atlas/edges.h"
+#include "lobelia/codec.h"
 #include "scenes.h"
 #include "support.h"
 
@@ -20,6 +21,35 @@ template <class Run>
 auto with_threads(std::size_t threads, const Run& run) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     return run();
+}
+
+// ---- Fits
+
+TEST(FitPages, EveryTexelIsFittedAndNothingElseChanges) {
+    const auto basis = make_basis("zh3").value();
+    const std::size_t n = basis->fitted()->accumulated()->size();
+    const PageLayout source{n}, target{basis->size()};
+    Page page(7, 5, source.channels());
+    std::mt19937 generator(3);
+    for (auto& plane : page.planes)
+        for (float& v : plane) v = static_cast<float>(generator() % 1000) / 500 - 0.5f;
+    for (std::size_t i = 0; i < page.size(); ++i) page.chart[i] = static_cast<std::uint32_t>(generator() % 3);
+    const std::vector<Page> pages{page};
+    const auto fitted = fit_pages(pages, *basis->fitted());
+    ASSERT_EQ(fitted.size(), 1u);
+    EXPECT_EQ(fitted[0].chart, page.chart);
+    EXPECT_EQ(fitted[0].planes[target.error()], page.planes[source.error()]);
+    EXPECT_EQ(fitted[0].planes[target.irradiance(2)], page.planes[source.irradiance(2)]);
+    for (std::size_t pixel = 0; pixel < page.size(); ++pixel) {
+        std::vector<Rgb> accumulated(n), c(basis->size());
+        for (std::size_t i = 0; i < n; ++i)
+            accumulated[i] = {page.planes[3 * i][pixel], page.planes[3 * i + 1][pixel], page.planes[3 * i + 2][pixel]};
+        basis->fitted()->fit(accumulated, c);
+        for (std::size_t i = 0; i < c.size(); ++i) {
+            ASSERT_EQ(fitted[0].planes[3 * i][pixel], c[i].r);
+            ASSERT_EQ(fitted[0].planes[3 * i + 2][pixel], c[i].b);
+        }
+    }
 }
 
 // ---- Dilation

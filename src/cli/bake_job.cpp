@@ -55,7 +55,7 @@ BakeProgressSink progress_line(const char* what) {
 /// Puts what was baked anew, an object's texels, among those of the finished bake that is there; `fresh` becomes all.
 Status put_among(Bake& bake, const Baker& baker, std::vector<Page>& fresh) {
     const PageLayout layout = bake.layout();
-    if (bake.pages.size() != fresh.size() || layout.channels() != baker.layout().channels() ||
+    if (bake.pages.size() != fresh.size() || layout.channels() != fresh.front().planes.size() ||
         bake.pages.front().size() != fresh.front().size())
         return Error{"--rebake-object: the bake that is there has other pages"};
     for (const CoveredTexel& at : baker.texels().texels) {
@@ -71,13 +71,18 @@ Status put_among(Bake& bake, const Baker& baker, std::vector<Page>& fresh) {
 
 void denoise_if(Switch wanted, std::vector<Page>& pages, const Baker& baker, const Guides& guides) {
     if (wanted == Switch::off) return;
-    const Codec* codec = baker.codec();
-    if (codec == nullptr) return denoise(pages, baker.layout(), guides, {}, solid_angle(Domain::hemisphere));
-    const LinearBasis* basis = codec->basis().linear();
-    if (basis == nullptr)
-        return complain("lobelia: warning: not denoised: the coefficients of " + codec->basis().name() +
+    const Basis* basis = baker.page_basis();
+    if (basis == nullptr) return denoise(pages, baker.layout(), guides, {}, solid_angle(Domain::hemisphere));
+    if (basis->linear() == nullptr)
+        return complain("lobelia: warning: not denoised: the coefficients of " + basis->name() +
                         " are not linear in the light");
-    denoise(pages, baker.layout(), guides, basis->integrals(), solid_angle(basis->domain()));
+    denoise(pages, baker.layout(), guides, basis->linear()->integrals(), solid_angle(basis->domain()));
+}
+
+/// The last step, where the pages do not hold the codec's own coefficients yet.
+void fit_if_needed(std::vector<Page>& pages, const Baker& baker) {
+    if (baker.page_basis() == nullptr || baker.page_basis() == &baker.codec()->basis()) return;
+    pages = fit_pages(pages, *baker.codec()->basis().fitted());
 }
 
 void print_summary(const Baker& baker, const Bake& bake) {
@@ -162,6 +167,7 @@ Status JobRun::finish_pages(const Guides& guides) {
     std::vector<Page>& pages = baker_->pages();
     denoise_if(job_.finish.denoise, pages, *baker_, guides);
     if (start_ == JobStart::rebake) {
+        fit_if_needed(pages, *baker_);
         auto there = read_bake(job_.out);
         if (!there) return there.error();
         if (auto status = put_among(*there, *baker_, pages); !status) return status;
@@ -169,8 +175,10 @@ Status JobRun::finish_pages(const Guides& guides) {
         bake_.manifest.statistics = there->manifest.statistics;
         bake_.manifest.options.only_object.reset();
     }
-    if (job_.finish.seams == Switch::on) close_seams(pages, baker_->layout(), baker_->atlas());
+    const bool fitted = pages.front().planes.size() != baker_->layout().channels();
+    if (job_.finish.seams == Switch::on && !fitted) close_seams(pages, baker_->layout(), baker_->atlas());
     if (job_.finish.dilate == Switch::on) dilate(pages);
+    if (!fitted) fit_if_needed(pages, *baker_);
     bake_.pages = std::move(pages);
     return Done{};
 }

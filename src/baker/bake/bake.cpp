@@ -84,6 +84,12 @@ struct Baker::Implementation {
     };
 
     [[nodiscard]] const Encoder* encoder() const { return codec ? codec->encoder().get() : nullptr; }
+    /// Whose coefficients the pages hold.
+    [[nodiscard]] const Encoder* page_encoder() const {
+        if (!codec) return nullptr;
+        const FittedBasis* fitted = codec->basis().fitted();
+        return fitted != nullptr && fitted->is_continuous() ? &encoder()->accumulating() : encoder();
+    }
     [[nodiscard]] bool in_tangent_frame() const {
         return !codec || codec->basis().domain() == Domain::hemisphere || options.frame == Frame::tangent;
     }
@@ -239,7 +245,7 @@ Status Baker::Implementation::run_region(std::size_t region, Start start, Run& r
     statistics.seconds += states.header.seconds;
     statistics.samples =
         std::max(statistics.samples, (states.header.end_pass - plan.first_pass) * options.samples_per_pass);
-    const SolveOptions solve{codec ? &*codec : nullptr, options.samples_per_pass, in_tangent_frame()};
+    const SolveOptions solve{codec ? &*codec : nullptr, page_encoder(), options.samples_per_pass, in_tangent_frame()};
     solve_onto(pages, map, texels, states.states(), *layout, solve, sites, atlas, totals);
     return Done{};
 }
@@ -326,7 +332,14 @@ const SiteLayout& Baker::sites() const { return *implementation_->layout; }
 std::uint64_t Baker::hash() const { return implementation_->hash; }
 const PathTracer& Baker::tracer() const { return *implementation_->tracer; }
 const Codec* Baker::codec() const { return implementation_->codec ? &*implementation_->codec : nullptr; }
-PageLayout Baker::layout() const { return {codec() == nullptr ? 0 : codec()->basis().size()}; }
+PageLayout Baker::layout() const {
+    const Encoder* encoder = implementation_->page_encoder();
+    return {encoder == nullptr ? 0 : encoder->basis().size()};
+}
+const Basis* Baker::page_basis() const {
+    const Encoder* encoder = implementation_->page_encoder();
+    return encoder == nullptr ? nullptr : &encoder->basis();
+}
 bool Baker::in_tangent_frame() const { return implementation_->in_tangent_frame(); }
 std::vector<Page>& Baker::pages() { return implementation_->pages; }
 const BakeStatistics& Baker::statistics() const { return implementation_->statistics; }

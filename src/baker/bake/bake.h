@@ -87,6 +87,11 @@ class Baker {
     [[nodiscard]] const TexelMap& texels() const;
     [[nodiscard]] const PathTracer& tracer() const;
     [[nodiscard]] const Codec* codec() const;  ///< null for plain irradiance
+    /// Whose coefficients pages() hold; null for plain irradiance. The codec's basis, but where that is fitted from
+    /// another: what it is fitted from, for the finishing steps ask for what is linear in the light, and fit_pages() is
+    /// the last of them. A basis whose fits are not continuous is fitted at once: there is no finishing it, and what it
+    /// accumulates is large.
+    [[nodiscard]] const Basis* page_basis() const;
     [[nodiscard]] PageLayout layout() const;
     /// Whether directions of the coefficients are in the tangent frame of each texel.
     [[nodiscard]] bool in_tangent_frame() const;

@@ -22,11 +22,17 @@ class Reader {
           around_(uniform_directions(Domain::hemisphere, Sequence::hammersley, k_readings - 1, 0)),
           normals_(k_readings),
           readings_(k_readings),
-          c_(options.codec == nullptr ? 0 : options.codec->basis().size()) {}
+          c_(options.codec == nullptr ? 0 : options.codec->basis().size()),
+          for_page_(options.pages == nullptr ? 0 : options.pages->basis().size()) {}
 
+    /// The coefficients for the page; the codec's own are kept for read().
     std::span<const Rgb> solve(std::span<const float> state) {
-        options_.codec->encoder()->solve(state, c_);
-        return c_;
+        options_.pages->solve(state, for_page_);
+        if (options_.pages == options_.codec->encoder().get())
+            c_ = for_page_;
+        else
+            options_.codec->basis().fitted()->fit(for_page_, c_);
+        return for_page_;
     }
 
     /// Signed irradiance by the codec at the normal and around it.
@@ -45,7 +51,7 @@ class Reader {
     const SolveOptions& options_;
     Directions around_, normals_;
     Colours readings_;
-    std::vector<Rgb> c_;
+    std::vector<Rgb> c_, for_page_;
 };
 
 void count_readings(ColourView readings, Rgb by_paths, SolveTotals& totals) {
@@ -105,7 +111,7 @@ void SolveTotals::finish(BakeStatistics& statistics) const {
 void solve_onto(std::span<Page> pages, const TexelMap& map, std::span<const std::uint32_t> texels,
                 std::span<const float> states, const SiteLayout& layout, const SolveOptions& options,
                 std::span<const Site> sites, const Atlas& atlas, SolveTotals& totals) {
-    const PageLayout planes{options.codec == nullptr ? 0 : options.codec->basis().size()};
+    const PageLayout planes{options.pages == nullptr ? 0 : options.pages->basis().size()};
     const auto solve_range = [&](const tbb::blocked_range<std::size_t>& range, SolveTotals sum) {
         Reader reader(options);
         for (std::size_t k = range.begin(); k < range.end(); ++k) {

@@ -19,7 +19,8 @@ struct SolveTotals {
 };
 
 struct SolveOptions {
-    const Codec* codec = nullptr;  ///< null: irradiance alone
+    const Codec* codec = nullptr;    ///< null: irradiance alone
+    const Encoder* pages = nullptr;  ///< whose coefficients the pages hold: the codec's, or what it accumulates with
     std::uint32_t samples_per_pass = 16;
     bool in_tangent_frame = false;
 };

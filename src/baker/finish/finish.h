@@ -44,6 +44,10 @@ struct DenoiseOptions {
 void denoise(std::span<Page> pages, const PageLayout& layout, const Guides& guides, std::span<const double> integrals,
              double domain_solid_angle, const DenoiseOptions& options = {});
 
+/// From pages of what `basis` is fitted from to pages of its own coefficients, texel by texel, empty ones, too. The
+/// last step.
+[[nodiscard]] std::vector<Page> fit_pages(std::span<const Page> pages, const FittedBasis& basis);
+
 /// Fills texels where nothing was baked, or whose validity is below `least_validity`, from their nearest valid
 /// neighbours within `radius` texels, of the same chart first; so that filtering and mips read no rubbish. `chart`
 /// stays as it was.
