@@ -6,7 +6,7 @@
 #include <limits>
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "baker/light_weights.cpp"
+#define HWY_TARGET_INCLUDE "baker/transport/light_weights.cpp"
 #include <hwy/foreach_target.h>  // NOLINT: must precede highway.h
 #include <hwy/highway.h>
 

@@ -6,7 +6,7 @@
 #include "lobelia/planes.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "baker/sequence_pairs.cpp"
+#define HWY_TARGET_INCLUDE "baker/transport/sequence_pairs.cpp"
 #include <hwy/foreach_target.h>  // NOLINT: must precede highway.h
 #include <hwy/highway.h>
 
