@@ -164,6 +164,18 @@ Result<Draft> read_draft(Document& document, const tinygltf::Material& source, c
     return draft;
 }
 
+/// Says how many materials have a map that is left out, which is the first, and what that means.
+void warn_of_maps(Document& document, int index_of(const tinygltf::Material&), std::string_view maps,
+                  std::string_view consequence) {
+    std::size_t count = 0, first = 0;
+    const auto& materials = document.model.materials;
+    for (std::size_t i = 0; i < materials.size(); ++i)
+        if (index_of(materials[i]) >= 0 && count++ == 0) first = i;
+    if (count == 0) return;
+    document.warn("materials", fmt::format("{} with {}, the first materials[{}] \"{}\": {}", count, maps, first,
+                                           short_name(materials[first].name), consequence));
+}
+
 /// Sets 0 and 1 keep their numbers; where others are used, the lowest two become 0 and 1.
 UvSets choose_sets(Document& document, const std::set<std::size_t>& used) {
     UvSets sets;
@@ -192,6 +204,13 @@ Result<UvSets> read_materials(Document& document, Scene& scene) {
         if (!draft) return draft.error();
         drafts.push_back(*std::move(draft));
     }
+
+    warn_of_maps(
+        document, [](const tinygltf::Material& m) { return m.normalTexture.index; }, "normal maps",
+        "not read; surfaces have the normals of their vertices");
+    warn_of_maps(
+        document, [](const tinygltf::Material& m) { return m.occlusionTexture.index; }, "occlusion maps",
+        "not read; the paths find what hides what");
 
     // Decode the textures that are used, and choose the uv sets.
     std::vector<bool> used(document.model.textures.size());
