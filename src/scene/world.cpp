@@ -29,6 +29,11 @@ Vec3 World::face_normal(std::size_t t) const {
     return unit_or(cross(positions[b] - positions[a], positions[c] - positions[a]), Vec3{});
 }
 
+std::string World::name_of(std::size_t of_object) const {
+    const bool named = of_object < names.size() && !names[of_object].empty();
+    return named ? "'" + names[of_object] + "'" : "object " + std::to_string(of_object);
+}
+
 World make_world(const Scene& scene) {
     World world;
     const bool colored =
@@ -39,6 +44,7 @@ World make_world(const Scene& scene) {
         const bool mirrored = determinant(object.world_from_object) < 0, flat = mesh.normals.empty();
         world.first_triangle.push_back(static_cast<std::uint32_t>(world.triangles.size()));
         world.has_lightmap_uv.push_back(!mesh.lightmap_uv.empty());
+        world.names.push_back(object.name);
 
         const auto add_vertex = [&](std::uint32_t v, Vec3 normal) {
             world.positions.push_back(transform_point(object.world_from_object, mesh.positions[v]));
