@@ -32,6 +32,7 @@ Site to_site(const Texel& texel, const CoveredTexel& at, const Atlas& atlas) {
     site.positions = texel.positions;
     site.position_count = texel.position_count;
     site.normal = texel.normal;
+    site.buried = texel.buried;
     site.key = static_cast<std::uint32_t>((at.page * atlas.height() + at.y) * atlas.width() + at.x);
     return site;
 }
