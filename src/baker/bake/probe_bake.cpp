@@ -22,7 +22,9 @@ using Place = std::array<std::int32_t, 3>;
 
 /// Probes see back faces in more than this share of directions only from inside something.
 constexpr float k_most_back_faces = 0.25f;
-constexpr std::size_t k_feelers = 64;
+/// From outside a room, across the corner of three walls, an eighth of all directions meets backs.
+constexpr float k_back_faces_to_move = 1.0f / 16;
+constexpr std::size_t k_feelers = 256;
 constexpr std::uint32_t k_samples_per_pass = 64;
 
 std::array<Vec3, 2> box_of(const ProbeOptions& options, const World& world) {
@@ -122,6 +124,7 @@ class ProbeBaker {
     }
 
     [[nodiscard]] Status bake(std::span<const Place> wanted, int level, const BakeProgressSink& progress);
+    [[nodiscard]] std::optional<Vec3> way_out(Vec3 position, float reach) const;
     [[nodiscard]] Vec3 pushed_out(Vec3 position) const;
     [[nodiscard]] std::array<Rgb, 6> irradiances(std::uint32_t probe) const;
     [[nodiscard]] double error_in(Place cell, std::int32_t size) const;
@@ -153,11 +156,11 @@ class ProbeBaker {
     std::vector<Cell> kept_;
 };
 
-Vec3 ProbeBaker::pushed_out(Vec3 position) const {
-    // Feel around for surfaces; a wall that shows its back is one to pass.
+/// The way through the nearest wall that shows its back, and a little beyond, so that it does not fill half of the
+/// view. Nothing where too few do, or it would be farther than `reach`.
+std::optional<Vec3> ProbeBaker::way_out(Vec3 position, float reach) const {
     std::array<PathTracer::Ray, k_feelers> rays;
     std::array<PathTracer::Hit, k_feelers> hits;
-    const float reach = 0.5f * step_ * static_cast<float>(fine_);
     for (std::size_t i = 0; i < k_feelers; ++i)
         rays[i] = {position, direction_at(feelers_, i), std::numeric_limits<float>::infinity()};
     tracer_.closest(rays, hits);
@@ -167,9 +170,21 @@ Vec3 ProbeBaker::pushed_out(Vec3 position) const {
         ++backs;
         if (nearest == k_feelers || hits[i].distance < hits[nearest].distance) nearest = i;
     }
-    if (static_cast<float>(backs) <= k_most_back_faces * k_feelers || hits[nearest].distance > reach) return position;
-    // A little beyond, so that the wall does not fill half of the view.
-    return position + rays[nearest].direction * (hits[nearest].distance + 0.1f * reach);
+    if (static_cast<float>(backs) <= k_back_faces_to_move * k_feelers || hits[nearest].distance > reach) return {};
+    return rays[nearest].direction * (hits[nearest].distance + 0.05f * step_ * static_cast<float>(fine_));
+}
+
+Vec3 ProbeBaker::pushed_out(Vec3 position) const {
+    // Half a cell's diagonal: so far outside may lie the corner of a grid about a room. There may be several walls to
+    // pass.
+    float left = 0.5f * std::sqrt(3.0f) * step_ * static_cast<float>(fine_);
+    for (int step = 0; step < 3; ++step) {
+        const auto way = way_out(position, left);
+        if (!way) break;
+        position = position + *way;
+        left = std::max(0.0f, left - length(*way));
+    }
+    return position;
 }
 
 Status ProbeBaker::bake(std::span<const Place> wanted, int level, const BakeProgressSink& progress) {
