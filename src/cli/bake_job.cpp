@@ -73,8 +73,10 @@ void print_summary(const Baker& baker, const Bake& bake) {
 }
 
 /// What Ctrl-C leaves: the line that says how to go on, and the exit that shells expect.
-Status stopped(const fs::path& out) {
-    complain(fmt::format("lobelia: stopped; go on with: lobelia bake --resume -o {}", out.string()));
+Status stopped(const fs::path& out, JobStart start) {
+    complain(start == JobStart::rebake
+                 ? fmt::format("lobelia: stopped; the bake in {} is as it was", out.string())
+                 : fmt::format("lobelia: stopped; go on with: lobelia bake --resume -o {}", out.string()));
     StopOnInterrupt::end_program();
     return Error{"stopped"};
 }
@@ -209,7 +211,7 @@ Status run_job(const BakeJob& job, JobStart start, std::span<const fs::path> sha
     const bool part = job.bake.shard.count > 1;
     if (status && !part) status = run.finish();
     if (status && !part) status = run.write();
-    if (stop.flag() && !status) return stopped(job.out);
+    if (stop.flag() && !status) return stopped(job.out, start);
     if (status && part)
         fmt::print("part {} of {} is done: {}\n", job.bake.shard.index, job.bake.shard.count, job.out.string());
     return status;

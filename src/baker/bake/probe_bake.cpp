@@ -124,6 +124,7 @@ class ProbeBaker {
     }
 
     [[nodiscard]] Status bake(std::span<const Place> wanted, int level, const BakeProgressSink& progress);
+    void bake_one(std::size_t probe, SiteWorker& worker);
     [[nodiscard]] std::optional<Vec3> way_out(Vec3 position, float reach) const;
     [[nodiscard]] Vec3 pushed_out(Vec3 position) const;
     [[nodiscard]] std::array<Rgb, 6> irradiances(std::uint32_t probe) const;
@@ -187,6 +188,23 @@ Vec3 ProbeBaker::pushed_out(Vec3 position) const {
     return position;
 }
 
+/// All samples of one probe.
+void ProbeBaker::bake_one(std::size_t probe, SiteWorker& worker) {
+    Site& site = sites_[probe];
+    site.positions[0] = pushed_out(site.positions[0]);
+    std::vector<float> state(layout_.floats());
+    PassOptions pass;
+    pass.domain = Domain::sphere;
+    for (std::uint32_t s = 0; s < options_.samples; s += k_samples_per_pass) {
+        pass.samples = {s, k_samples_per_pass};
+        worker.run({&site, 1}, layout_, codec_.encoder().get(), state, pass);
+    }
+    const std::size_t n = codec_.basis().size();
+    summaries_[probe] = summary(layout_.record(std::span<const float>(state)), k_samples_per_pass);
+    codec_.encoder()->solve(layout_.encoder(std::span<const float>(state)),
+                            std::span(coefficients_).subspan(probe * n, n));
+}
+
 Status ProbeBaker::bake(std::span<const Place> wanted, int level, const BakeProgressSink& progress) {
     const std::size_t first = sites_.size();
     for (const Place& place : wanted) {
@@ -201,27 +219,16 @@ Status ProbeBaker::bake(std::span<const Place> wanted, int level, const BakeProg
         site.key = 0x80000000u + static_cast<std::uint32_t>(sites_.size());
         sites_.push_back(site);
     }
-    const std::size_t count = sites_.size() - first, n = codec_.basis().size();
+    const std::size_t count = sites_.size() - first;
     summaries_.resize(sites_.size());
-    coefficients_.resize(sites_.size() * n);
+    coefficients_.resize(sites_.size() * codec_.basis().size());
 
     tbb::enumerable_thread_specific<SiteWorker> workers([&] { return SiteWorker(tracer_); });
     std::atomic<std::size_t> done = 0;
     std::mutex mutex;
     tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
         if (stop_.load(std::memory_order_relaxed)) return;
-        Site& site = sites_[first + i];
-        site.positions[0] = pushed_out(site.positions[0]);
-        std::vector<float> state(layout_.floats());
-        PassOptions pass;
-        pass.domain = Domain::sphere;
-        for (std::uint32_t s = 0; s < options_.samples; s += k_samples_per_pass) {
-            pass.samples = {s, k_samples_per_pass};
-            workers.local().run({&site, 1}, layout_, codec_.encoder().get(), state, pass);
-        }
-        summaries_[first + i] = summary(layout_.record(std::span<const float>(state)), k_samples_per_pass);
-        codec_.encoder()->solve(layout_.encoder(std::span<const float>(state)),
-                                std::span(coefficients_).subspan((first + i) * n, n));
+        bake_one(first + i, workers.local());
         ++done;
         if (!progress || !mutex.try_lock()) return;
         BakeProgress is;
