@@ -64,8 +64,11 @@ void print_summary(const Baker& baker, const Bake& bake) {
                s.seconds > 0 ? static_cast<double>(s.rays) * 1e-6 / s.seconds : 0);
     const std::string error = s.samples > baker.options().samples_per_pass ? fmt::format("{:.2f} %", 100 * s.mean_error)
                                                                            : "not known from one pass";
-    fmt::print("standard error of E {}, leaks {:.2f} %, {}, {} of them under other surfaces\n", error,
-               100 * s.back_face_share, counted(s.invalid_texels, "invalid texel"), s.buried_texels);
+    const std::string invalid = s.invalid_texels == 0
+                                    ? "no invalid texels"
+                                    : fmt::format("{}, {} of them under other surfaces",
+                                                  counted(s.invalid_texels, "invalid texel"), s.buried_texels);
+    fmt::print("standard error of E {}, leaks {:.2f} %, {}\n", error, 100 * s.back_face_share, invalid);
     if (baker.codec() != nullptr)
         fmt::print("E by the codec off by {:.2f} %, negative {:.2f} %, ringing {:.2f} %\n", 100 * s.codec_error,
                    100 * s.negative_share, 100 * s.ringing);

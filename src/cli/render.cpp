@@ -122,6 +122,7 @@ Status render_verb(const Options& given) {
     const auto extension = fs::path(options.out).extension();
     if (extension != ".exr" && extension != ".png")
         return Error{options.out + ": the picture's name must end in .exr or .png"};
+    if (auto status = check_file(options.out); !status) return status;
     options.render.progress = progress_bar();
 
     if (is_bake(options.scene.path)) {

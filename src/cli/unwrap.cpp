@@ -123,6 +123,7 @@ void print_result(const std::string& printed, const Options& options) {
 Status unwrap(const Options& options, const std::atomic<bool>& stop) {
     // Look at options, input and tools before the work.
     if (const auto status = check_options(options); !status) return status;
+    if (const auto status = check_file(options.out); !status) return status;
     const auto input = read_gltf(options.in);
     if (!input) return input.error();
     const auto folder = script_folder();
