@@ -1,7 +1,8 @@
 // lobelia render: a scene by paths, or as a bake shows it, from one of its cameras.
 #include <fmt/core.h>
 
-#include <charconv>
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 
@@ -27,8 +28,15 @@ struct Options {
     PathOptions paths;
     RenderOptions render;
     std::optional<double> exposure;
+    std::string tone = "filmic";
     bool truth = false;
 };
+
+constexpr std::array k_tone_names{"clamp", "reinhard", "filmic"};
+
+ToneCurve tone_of(const std::string& name) {
+    return static_cast<ToneCurve>(std::find(k_tone_names.begin(), k_tone_names.end(), name) - k_tone_names.begin());
+}
 
 /// The picture as the file's name wants it.
 Status write_picture(const Options& options, const Image& image) {
@@ -36,10 +44,10 @@ Status write_picture(const Options& options, const Image& image) {
     double mean = 0;
     for (const Rgb& pixel : image.pixels) mean += static_cast<double>(luminance(pixel));
     mean /= static_cast<double>(image.pixels.size());
-    // Without an exposure the mean luminance is a quarter of white.
+    // Without an exposure the mean luminance is a quarter of white, as on the pages.
     const double automatic = mean > 0 ? 0.25 / mean : 1;
     const double exposure = options.exposure ? std::exp2(*options.exposure) : automatic;
-    return write_png(options.out, to_srgb(image, static_cast<float>(exposure)));
+    return write_png(options.out, to_srgb(image, static_cast<float>(exposure), tone_of(options.tone)));
 }
 
 Result<Image> finished(std::optional<Image> image) {
@@ -104,6 +112,7 @@ Status render_verb(const Options& given) {
     const auto extension = fs::path(options.out).extension();
     if (extension != ".exr" && extension != ".png")
         return Error{options.out + ": the picture's name must end in .exr or .png"};
+    if (auto status = check_file(options.out); !status) return status;
     options.render.progress = progress_bar();
 
     if (is_bake(options.scene.path)) {
@@ -145,8 +154,13 @@ Verb add_render(CLI::App& app) {
     command->add_option("-t,--threads", options->render.threads, "0: all processors")
         ->check(CLI::Range(0u, 1024u))
         ->capture_default_str();
-    command->add_option("--exposure", options->exposure, "Of .png pictures [EV] (default: mean as a quarter of white)")
+    command
+        ->add_option("--exposure", options->exposure,
+                     "Of .png pictures, radiance times 2^this [EV] (default: its mean becomes a quarter of white)")
         ->check(number_in(-32, 32));
+    command->add_option("--tone", options->tone, "Of .png pictures: how what is brighter than white is shown")
+        ->check(CLI::IsMember(std::vector<std::string>(k_tone_names.begin(), k_tone_names.end())))
+        ->capture_default_str();
     command->add_option("-o,--output", options->out, "The file to write: .exr, linear, or .png")->required();
     return {command, [options] { return render_verb(*options); }};
 }

@@ -85,6 +85,7 @@ void put(Page& page, std::size_t pixel, const PageLayout& layout, std::span<cons
 void SolveTotals::add(const SolveTotals& other) {
     texels += other.texels;
     invalid += other.invalid;
+    buried += other.buried;
     squared_error += other.squared_error;
     irradiance += other.irradiance;
     back_faces += other.back_faces;
@@ -101,8 +102,9 @@ void SolveTotals::finish(BakeStatistics& statistics) const {
     const double mean = irradiance / count;
     const auto over = [](double a, double b) { return b > 0 ? a / b : 0; };
     statistics.invalid_texels = invalid;
+    statistics.buried_texels = buried;
     statistics.mean_error = over(std::sqrt(squared_error / count), mean);
-    statistics.back_face_share = back_faces / count;
+    statistics.back_face_share = over(back_faces, static_cast<double>(texels - buried));
     statistics.codec_error = over(std::sqrt(codec_squared_error / count), mean);
     statistics.negative_share = over(static_cast<double>(negative), static_cast<double>(readings));
     statistics.ringing = over(negative_part, std::abs(reading));
@@ -125,7 +127,9 @@ void solve_onto(std::span<Page> pages, const TexelMap& map, std::span<const std:
                 options.codec == nullptr ? std::span<const Rgb>() : reader.solve(layout.encoder(state)), is);
 
             sum.texels += 1;
-            sum.back_faces += 1 - is.validity;
+            const bool buried = sites[k].buried && is.validity < 0.5f;
+            sum.buried += buried;
+            sum.back_faces += buried ? 0 : 1 - is.validity;
             if (is.validity < 0.5f) {
                 sum.invalid += 1;
                 continue;

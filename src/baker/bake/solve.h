@@ -8,7 +8,7 @@ namespace lobelia {
 
 /// Sums over texels; finish turns them into the statistics.
 struct SolveTotals {
-    std::size_t texels = 0, invalid = 0;
+    std::size_t texels = 0, invalid = 0, buried = 0;
     double squared_error = 0, irradiance = 0, back_faces = 0;
     double codec_squared_error = 0;
     std::size_t readings = 0, negative = 0;
