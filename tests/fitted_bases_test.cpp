@@ -66,6 +66,31 @@ TEST(EveryFittedBasis, NothingGivesZeros) {
     }
 }
 
+TEST(EveryFittedBasis, KnowsIntegralsAndProductsOfWhatItAccumulates) {
+    const std::size_t n = 200000;
+    for (const auto& name : fitted_names()) {
+        const auto basis = basis_of(name)->fitted()->accumulated();
+        if (basis->size() > 100) continue;  // texels; they have tests of their own
+        SCOPED_TRACE(name);
+        const Directions directions = uniform_directions(basis->domain(), Sequence::hammersley, n, 0);
+        std::vector<double> integrals(basis->size()), products(basis->size() * basis->size());
+        std::vector<float> rows(basis->size() * k_block_size);
+        for_each_part(directions.view(), k_block_size, [&](DirectionView block, std::size_t) {
+            basis->values(block, rows.data());
+            for (std::size_t i = 0; i < basis->size(); ++i)
+                for (std::size_t j = 0; j < block.size; ++j) {
+                    const double v = rows[i * k_block_size + j];
+                    integrals[i] += v;
+                    for (std::size_t k = 0; k < basis->size(); ++k)
+                        products[i * basis->size() + k] += v * rows[k * k_block_size + j];
+                }
+        });
+        const double each = solid_angle(basis->domain()) / static_cast<double>(n);
+        for (std::size_t i = 0; i < basis->size(); ++i) EXPECT_NEAR(basis->integrals()[i], integrals[i] * each, 1e-3);
+        for (std::size_t i = 0; i < products.size(); ++i) EXPECT_NEAR(basis->gram()[i], products[i] * each, 1e-3);
+    }
+}
+
 TEST(EveryFittedBasis, KeepsTheStateOfWhatItAccumulates) {
     Samples samples(8), sources(2);
     for (std::size_t i = 0; i < 8; ++i)

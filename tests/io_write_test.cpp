@@ -2,6 +2,8 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +11,7 @@
 
 #include "folders.h"
 #include "io/read_image.h"
+#include "io/staged_file.h"
 #include "io/write_file.h"
 #include "io/write_image.h"
 #include "io_files.h"
@@ -135,6 +138,24 @@ TEST(WriteExr, WhatCannotBeStoredIsRefused) {
     EXPECT_FALSE(encode_exr(2, 2, Channels{{"A", floats, 1}, {"A", floats, 1}}));
     EXPECT_FALSE(encode_exr(4, 2, Channels{{"A", floats, 2}}));
     EXPECT_FALSE(encode_exr(Image()));
+}
+
+TEST(AbandonedFiles, OnlyThoseOfProcessesThatAreGoneAreRemoved) {
+    const test::TestFolder folder("abandoned");
+    // A process that has ended and been waited for.
+    const pid_t gone = ::fork();
+    if (gone == 0) ::_exit(0);
+    ASSERT_EQ(::waitpid(gone, nullptr, 0), gone);
+    const auto file = [&](const std::string& name) { return folder.path() / name; };
+    const std::string mine = ".lobelia-" + std::to_string(::getpid()) + "-a-0.tmp";
+    const std::string theirs = ".lobelia-" + std::to_string(gone) + "-a-0.tmp";
+    for (const std::string& name : {mine, theirs, std::string(".lobelia-x.tmp"), std::string("page-0.exr")})
+        test::overwrite(file(name), "x");
+    remove_abandoned_files(folder.path());
+    remove_abandoned_files(file("no such folder"));
+    EXPECT_FALSE(std::filesystem::exists(file(theirs)));
+    for (const std::string& name : {mine, std::string(".lobelia-x.tmp"), std::string("page-0.exr")})
+        EXPECT_TRUE(std::filesystem::exists(file(name))) << name;
 }
 
 TEST(WritePng, RoundTripWithinHalfALevel) {

@@ -9,6 +9,7 @@
 #include "cli/common.h"
 #include "cli/interrupt.h"
 #include "io/counted.h"
+#include "io/staged_file.h"
 #include "lobelia/sample.h"
 
 namespace lobelia::cli {

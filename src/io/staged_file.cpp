@@ -3,10 +3,12 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <signal.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <charconv>
 #include <optional>
 #include <system_error>
 
@@ -16,6 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::string_view k_temporary_prefix = ".lobelia-", k_temporary_extension = ".tmp";
+
 /// A new file of the folder of `path` under a name that no other process or thread has, made by `create(name)`, which
 /// tells whether it could. Files that are staged at the same time differ in the hash of their names.
 template <class Create>
@@ -23,7 +27,8 @@ std::optional<fs::path> create_named_beside(const fs::path& path, const Create& 
     constexpr int k_attempts = 1000;
     const std::size_t name = fs::hash_value(path.filename());
     for (int i = 0; i < k_attempts; ++i) {
-        fs::path candidate = path.parent_path() / fmt::format(".lobelia-{}-{:x}-{}.tmp", ::getpid(), name, i);
+        fs::path candidate = path.parent_path() / fmt::format("{}{}-{:x}-{}{}", k_temporary_prefix, ::getpid(), name, i,
+                                                              k_temporary_extension);
         if (create(candidate)) return candidate;
         if (errno != EEXIST) return std::nullopt;
     }
@@ -118,6 +123,21 @@ Status StagedFile::commit() {
     if (::rename(temporary_.c_str(), target_.c_str()) != 0) return io::write_failure(target_, errno);
     temporary_.clear();
     return Done{};
+}
+
+void remove_abandoned_files(const fs::path& folder) {
+    std::error_code code;
+    for (fs::directory_iterator entry(folder, code), end; !code && entry != end; entry.increment(code)) {
+        const std::string name = entry->path().filename().string();
+        if (!name.starts_with(k_temporary_prefix) || !name.ends_with(k_temporary_extension)) continue;
+        pid_t process = 0;
+        const char* const digits = name.data() + k_temporary_prefix.size();
+        if (std::from_chars(digits, name.data() + name.size(), process).ec != std::errc() || process <= 0) continue;
+        // A process that is there may still be writing.
+        if (::kill(process, 0) == 0 || errno != ESRCH) continue;
+        std::error_code ignored;
+        fs::remove(entry->path(), ignored);
+    }
 }
 
 }  // namespace lobelia

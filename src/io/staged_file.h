@@ -37,4 +37,8 @@ class StagedFile {
     std::filesystem::path temporary_;  ///< its name until it is in place; empty while it has none
 };
 
+/// Removes what processes that were killed have left of staged files in the folder, which need not exist: a file has a
+/// temporary name for a moment before it gets its own.
+void remove_abandoned_files(const std::filesystem::path& folder);
+
 }  // namespace lobelia

@@ -142,7 +142,11 @@ Matrix NormalMoments::gram() const {
     return gram;
 }
 
-std::vector<double> NormalMoments::integrals() const { return {gram().begin(), gram().begin() + 5}; }
+std::vector<double> NormalMoments::integrals() const {
+    // The first function is 1.
+    const Matrix products = gram();
+    return {products.begin(), products.begin() + static_cast<std::ptrdiff_t>(size())};
+}
 
 Basis::Rotated NormalMoments::rotated(const Rotation&, std::span<const Rgb> c) const {
     return {std::make_shared<NormalMoments>(), {c.begin(), c.end()}};
