@@ -18,6 +18,7 @@
 #include "lobelia/codec.h"
 #include "lobelia/encode/moments.h"
 #include "lobelia/encode/sequential.h"
+#include "lobelia/specular.h"
 
 namespace lobelia {
 namespace {
@@ -206,6 +207,19 @@ Result<std::shared_ptr<const Evaluator>> make_evaluator(std::string_view name, c
     if (auto evaluator = basis.evaluator(name)) return evaluator;
     return Error{"unknown evaluator " + quoted(name) + " for basis " + basis.name() +
                  nearest_names(name, basis.evaluator_names())};
+}
+
+std::vector<std::string> specular_names(const Basis& basis) {
+    auto names = basis.specular_names();
+    names.emplace_back("sampled");
+    return names;
+}
+
+Result<std::shared_ptr<const SpecularEvaluator>> make_specular(std::string_view name, BasisPtr basis) {
+    if (name == "sampled") return make_sampled_specular(std::move(basis));
+    if (auto evaluator = basis->specular(name)) return evaluator;
+    return Error{"unknown reading of gloss " + quoted(name) + " for basis " + basis->name() +
+                 nearest_names(name, specular_names(*basis))};
 }
 
 Result<CodecName> parse_codec_name(std::string_view name) {
