@@ -115,7 +115,9 @@ class FittedBasis : public Basis {
     [[nodiscard]] std::vector<std::string> listed_encoders() const override { return {"moments", "least-squares"}; }
 };
 
-[[nodiscard]] inline std::shared_ptr<const SpecularEvaluator> Basis::specular(std::string_view) const { return nullptr; }
+[[nodiscard]] inline std::shared_ptr<const SpecularEvaluator> Basis::specular(std::string_view) const {
+    return nullptr;
+}
 
 /// The same object, or null where it is not linear.
 [[nodiscard]] inline std::shared_ptr<const LinearBasis> as_linear(const std::shared_ptr<const Basis>& basis) {

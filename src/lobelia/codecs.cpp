@@ -12,6 +12,7 @@
 #include "lobelia/bases/hemisphere_polynomials.h"
 #include "lobelia/bases/octahedral.h"
 #include "lobelia/bases/sg_study.h"
+#include "lobelia/bases/specular_study.h"
 #include "lobelia/bases/spherical_gaussians.h"
 #include "lobelia/bases/spherical_harmonics.h"
 #include "lobelia/bases/zh3.h"
@@ -53,6 +54,7 @@ constexpr std::array k_patterns = {
 constexpr std::array k_studies = {
     StudyEntry{"irradiance", "Irradiance formulae of spherical Gaussians against the exact integral",
                study_sg_irradiance},
+    StudyEntry{"specular", "Glossy reflection of lobes and harmonics against rays", study_specular},
 };
 
 enum class Needs { any_basis, non_negative_basis };

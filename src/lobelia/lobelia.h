@@ -12,8 +12,8 @@
 //
 // The coefficients, one colour each, are all that has to be stored. From them the basis gives the radiance in a
 // direction, an evaluator the irradiance at a normal, and a specular evaluator (make_specular) what a glossy surface
-// reflects. Basis, encoder and evaluator make a codec: make_codec
-// ("sg12/least-squares/hill") puts one together, all_codecs() lists those that make sense.
+// reflects. Basis, encoder and evaluator make a codec: make_codec ("sg12/least-squares/hill") puts one together,
+// all_codecs() lists those that make sense.
 //
 // How good was it? irradiance_sum is the exact irradiance of an environment, errors() measures against it.
 //

@@ -204,8 +204,7 @@ class SgSpecularSum final : public SpecularEvaluator {
     [[nodiscard]] std::string name() const override { return std::string(info_.name); }
     [[nodiscard]] Accuracy accuracy() const override {
         return {"alpha 0.1 to 0.8, n.v 0.25 to 1, sharpness 2 to 64",
-                table_number(info_.error) + " of a lobe's reflected light, RMS over its axes",
-                Reading::of_radiance, 0};
+                table_number(info_.error) + " of a lobe's reflected light, RMS over its axes", Reading::of_radiance, 0};
     }
     void reflected(std::span<const Rgb> c, const SpecularPoints& points, MutableColourView out) const override {
         assert(c.size() == lobes_.size() && out.size == points.size());

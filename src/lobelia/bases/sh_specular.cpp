@@ -23,8 +23,8 @@ class ZonalSpecular final : public SpecularEvaluator {
         return kind_ == Kind::convolution ? "sh-convolution" : "sh-prefiltered";
     }
     [[nodiscard]] Accuracy accuracy() const override {
-        return {k_range, kind_ == Kind::convolution ? k_convolution_error : k_prefiltered_error,
-                Reading::of_radiance, 0.005};
+        return {k_range, kind_ == Kind::convolution ? k_convolution_error : k_prefiltered_error, Reading::of_radiance,
+                0.005};
     }
     void reflected(std::span<const Rgb> c, const SpecularPoints& points, MutableColourView out) const override {
         assert(c.size() == harmonics_.size() && out.size == points.size());
