@@ -125,6 +125,8 @@ TEST(Ggx, WhiteFurnaceLosesOnlyWhatFacetsHide) {
         before = albedo;
     }
     EXPECT_NEAR(ggx::lobe(ggx::make_view(0.7f, 0.01f)).albedo, 1, 2e-3);
+    // Along the normal at alpha 1: D is 1 / pi, and the integral comes to 1 - ln 2.
+    EXPECT_NEAR(ggx::lobe(ggx::make_view(1, 1)).albedo, 1 - std::log(2.0), 1e-3);
     for (const auto& view : k_some_views)
         EXPECT_NEAR(ggx::lobe(view).albedo, over_hemisphere([&](Vec3 l) { return ggx::reflection(view, l); }), 2e-3);
 }
