@@ -27,8 +27,10 @@ struct SgSpecularInfo {
 [[nodiscard]] std::span<const SgSpecularInfo> sg_specular_list();
 [[nodiscard]] std::optional<SgSpecular> sg_specular_from_name(std::string_view name);
 
-/// What `kind` makes of a unit lobe. Of sharpness 0, ambient light, every kind makes the surface's exact albedo.
-[[nodiscard]] float sg_specular(SgSpecular kind, const gaussian::Lobe& lobe, const ggx::View& view);
+/// What `kind` makes of a unit lobe at each axis, in the view's own frame. Of sharpness 0, ambient light, every kind
+/// makes the surface's albedo.
+[[nodiscard]] std::vector<float> sg_specular(SgSpecular kind, const ggx::View& view, float sharpness,
+                                             DirectionView axes);
 
 /// Names of the kinds, the most accurate last, and one of them for fixed lobes; null if the name is none of these.
 [[nodiscard]] std::vector<std::string> sg_specular_names();

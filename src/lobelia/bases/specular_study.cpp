@@ -1,6 +1,8 @@
 // The study of glossy reflection: every reading against rays.
 #include "lobelia/bases/specular_study.h"
 
+#include <algorithm>
+
 #include "lobelia/bases/sg_specular.h"
 #include "lobelia/bases/spherical_harmonics.h"
 #include "lobelia/quadrature.h"
@@ -16,10 +18,15 @@ constexpr float k_published_low = 2, k_published_high = 64;
 constexpr std::size_t k_truth_rays = 4096, k_axes = 400;
 
 /// What a lobe sends to the viewer, by rays.
-float by_rays(const std::vector<ggx::Ray>& rays, const gaussian::Lobe& lobe) {
+float by_rays(const std::vector<ggx::Ray>& rays, float sharpness, Vec3 axis) {
     float sum = 0;
-    for (const auto& ray : rays) sum += ray.weight * std::exp(lobe.sharpness * (dot(ray.direction, lobe.axis) - 1));
+    for (const auto& ray : rays) sum += ray.weight * std::exp(sharpness * (dot(ray.direction, axis) - 1));
     return sum;
+}
+std::vector<float> by_rays(const std::vector<ggx::Ray>& rays, float sharpness, DirectionView axes) {
+    std::vector<float> values(axes.size);
+    for (std::size_t i = 0; i < axes.size; ++i) values[i] = by_rays(rays, sharpness, direction_at(axes, i));
+    return values;
 }
 
 /// One way to read a lobe: a formula or a few rays.
@@ -47,25 +54,22 @@ struct StudyCase {
 
 std::vector<RelativeError> measure(const ggx::View& view, float sharpness, const std::vector<ggx::Ray>& truth_rays) {
     static const Directions axes = uniform_directions(Domain::sphere, Sequence::hammersley, k_axes, 0);
-    std::vector<float> truth;
+    const auto truth = by_rays(truth_rays, sharpness, axes);
     double whole = 0, upper = 0;
     for (std::size_t i = 0; i < k_axes; ++i) {
-        const Vec3 axis = direction_at(axes, i);
-        truth.push_back(by_rays(truth_rays, {axis, sharpness}));
         const double square = static_cast<double>(truth[i] * truth[i]);
         whole += square;
-        if (axis.z > 0) upper += square;
+        if (direction_at(axes, i).z > 0) upper += square;
     }
     std::vector<RelativeError> errors;
     for (const Reading& reading : study_readings()) {
-        const auto few = reading.formula ? std::vector<ggx::Ray>() : ggx::rays(view, reading.rays);
+        const auto values = reading.formula ? sg_specular(*reading.formula, view, sharpness, axes)
+                                            : by_rays(ggx::rays(view, reading.rays), sharpness, axes);
         RelativeError e;
         for (std::size_t i = 0; i < k_axes; ++i) {
-            const gaussian::Lobe lobe{direction_at(axes, i), sharpness};
-            const float value = reading.formula ? sg_specular(*reading.formula, lobe, view) : by_rays(few, lobe);
-            const double square = static_cast<double>((value - truth[i]) * (value - truth[i]));
+            const double square = static_cast<double>((values[i] - truth[i]) * (values[i] - truth[i]));
             e.sphere += square;
-            if (lobe.axis.z > 0) e.hemisphere += square;
+            if (direction_at(axes, i).z > 0) e.hemisphere += square;
         }
         errors.push_back({std::sqrt(e.sphere / whole), std::sqrt(e.hemisphere / upper)});
     }
@@ -244,63 +248,71 @@ Study::Plot curve_plot(float alpha, float cosine, float sharpness) {
                      Study::Axis::linear,
                      {}};
     const auto view = ggx::make_view(cosine, alpha);
-    const auto rays = ggx::rays(view, k_truth_rays);
-    Study::Series truth{"4096 rays", {}, {}};
-    const auto lobe_at = [&](int degrees) {
-        const double angle = degrees * k_pi / 180;
-        return gaussian::Lobe{{static_cast<float>(-std::sin(angle)), 0, static_cast<float>(std::cos(angle))},
-                              sharpness};
+    std::vector<double> angles;
+    for (int degrees = -120; degrees <= 150; degrees += 2) angles.push_back(degrees);
+    Directions axes(angles.size());
+    for (std::size_t i = 0; i < angles.size(); ++i) {
+        const double angle = angles[i] * k_pi / 180;
+        set_entry(axes, i, Vec3{static_cast<float>(-std::sin(angle)), 0, static_cast<float>(std::cos(angle))});
+    }
+    const auto add = [&](std::string name, const std::vector<float>& values) {
+        plot.series.push_back({std::move(name), angles, {values.begin(), values.end()}});
     };
-    for (int degrees = -120; degrees <= 150; degrees += 2) {
-        truth.x.push_back(degrees);
-        truth.y.push_back(static_cast<double>(by_rays(rays, lobe_at(degrees))));
-    }
-    for (const auto& info : sg_specular_list()) {
-        Study::Series series{std::string(info.name), truth.x, {}};
-        for (double x : truth.x)
-            series.y.push_back(static_cast<double>(sg_specular(info.kind, lobe_at(static_cast<int>(x)), view)));
-        plot.series.push_back(std::move(series));
-    }
-    plot.series.push_back(std::move(truth));
+    for (const auto& info : sg_specular_list())
+        add(std::string(info.name), sg_specular(info.kind, view, sharpness, axes));
+    add("4096 rays", by_rays(ggx::rays(view, k_truth_rays), sharpness, axes));
     return plot;
 }
 
-/// A glossy sphere seen from +z; `reflect(view, axis)` gives what it reflects of the lobe, whose axis is in the view's
-/// frame; divided by `brightest`.
-template <class Reflect>
-Image glossy_sphere(float alpha, float brightest, const Reflect& reflect) {
-    constexpr std::size_t size = 128, subsamples = 2, across = size * subsamples;
-    const Vec3 axis = normalize(Vec3{-0.5f, 0.6f, 0.62f});
-    Image image(size, size);
-    for (std::size_t i = 0; i < across * across; ++i) {
-        const std::size_t x = i % across, y = i / across;
-        const float u = 1.08f * ((static_cast<float>(x) + 0.5f) / (0.5f * across) - 1);
-        const float v = 1.08f * (1 - (static_cast<float>(y) + 0.5f) / (0.5f * across));
-        const float squared = u * u + v * v;
-        if (squared > 1) continue;
-        const auto view = ggx::make_view({u, v, std::sqrt(1 - squared)}, {0, 0, 1}, alpha);
-        const float value = reflect(view, view.to_local(axis)) / (brightest * subsamples * subsamples);
-        Rgb& pixel = image.pixels[(y / subsamples) * size + x / subsamples];
-        pixel = pixel + Rgb{value, value, value};
+/// A sphere seen from +z: the points of its picture, four to a pixel, and the pixels that they belong to.
+struct GlossySphere {
+    static constexpr std::size_t size = 128, subsamples = 2, across = size * subsamples;
+    std::vector<std::size_t> owners;
+    Directions normals, views;
+
+    GlossySphere() {
+        std::vector<Vec3> all;
+        for (std::size_t i = 0; i < across * across; ++i) {
+            const std::size_t x = i % across, y = i / across;
+            const float u = 1.08f * ((static_cast<float>(x) + 0.5f) / (0.5f * across) - 1);
+            const float v = 1.08f * (1 - (static_cast<float>(y) + 0.5f) / (0.5f * across));
+            if (u * u + v * v > 1) continue;
+            all.push_back({u, v, std::sqrt(1 - u * u - v * v)});
+            owners.push_back((y / subsamples) * size + x / subsamples);
+        }
+        normals = views = Directions(all.size());
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            set_entry(normals, i, all[i]);
+            set_entry(views, i, Vec3{0, 0, 1});
+        }
     }
-    return image;
-}
+    [[nodiscard]] Image picture(const Colours& values, float brightest) const {
+        Image image(size, size);
+        for (std::size_t i = 0; i < owners.size(); ++i)
+            image.pixels[owners[i]] =
+                image.pixels[owners[i]] + colour_at(values, i) * (1 / (brightest * subsamples * subsamples));
+        return image;
+    }
+};
 
 void add_glossy_spheres(Study& study, float alpha, float sharpness) {
+    static const GlossySphere sphere;
     const auto caption = "alpha " + table_number(static_cast<double>(alpha)) + ", sharpness " +
                          table_number(static_cast<double>(sharpness));
-    // A lobe in the mirror direction of a view from half way up.
-    const auto facing = ggx::make_view(0.7f, alpha);
-    const float brightest = by_rays(ggx::rays(facing, 512), {{-facing.sine, 0, facing.cosine}, sharpness});
-    study.pictures.push_back({"512 rays", caption, glossy_sphere(alpha, brightest, [&](const auto& view, Vec3 axis) {
-                                  return by_rays(ggx::rays(view, 512), {axis, sharpness});
-                              })});
+    const gaussian::Lobe lobe{normalize(Vec3{-0.5f, 0.6f, 0.62f}), sharpness};
+    const std::vector<float> alphas(sphere.owners.size(), alpha);
+    Colours values(sphere.owners.size());
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        const auto view = ggx::make_view(direction_at(sphere.normals, i), {0, 0, 1}, alpha);
+        const float value = by_rays(ggx::rays(view, 256), sharpness, view.to_local(lobe.axis));
+        set_entry(values, i, Rgb{value, value, value});
+    }
+    const float brightest = *std::max_element(values.channel(0), values.channel(0) + values.size());
+    study.pictures.push_back({"256 rays", caption, sphere.picture(values, brightest)});
     for (const auto& info : sg_specular_list()) {
-        // The view in its own frame, which the axis is in.
-        const auto reflect = [&](const ggx::View& view, Vec3 axis) {
-            return sg_specular(info.kind, {axis, sharpness}, ggx::make_view(view.cosine, alpha));
-        };
-        study.pictures.push_back({std::string(info.name), caption, glossy_sphere(alpha, brightest, reflect)});
+        make_sg_specular(info.name, {lobe})
+            ->reflected(std::vector<Rgb>{{1, 1, 1}}, {sphere.normals, sphere.views, alphas}, values);
+        study.pictures.push_back({std::string(info.name), caption, sphere.picture(values, brightest)});
     }
 }
 
