@@ -25,6 +25,7 @@ and measures how wrong each choice is.
   lobelia reference room.hdr --latlong 64x32 -o exact.exr
   lobelia list --axes                      bases, encoders and evaluators
   lobelia study irradiance                 how good each irradiance formula is
+  lobelia study specular                   and each reading of gloss
   lobelia scene cornell -o cornell.glb     a scene to bake
   lobelia unwrap in.glb -o out.glb         lightmap UVs for a scene of yours
   lobelia bake cornell -o bake             lightmaps of a scene, and a page that shows them

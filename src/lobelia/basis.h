@@ -14,6 +14,7 @@ using Matrix = std::vector<double>;
 
 class LinearBasis;
 class FittedBasis;
+class SpecularEvaluator;  // lobelia/specular.h
 
 /// light: a coefficient that grows in proportion to the radiance. shape: a direction, a sharpness, which does not.
 enum class Meaning { light, shape };
@@ -48,6 +49,10 @@ class Basis {
     /// unknown).
     [[nodiscard]] virtual std::vector<std::string> evaluator_names() const = 0;
     [[nodiscard]] virtual std::shared_ptr<const Evaluator> evaluator(std::string_view name) const = 0;
+    /// Names of the basis's own ways to read glossy reflection, the most accurate one last, and one of them (null if
+    /// unknown). Any basis can be read by sampling besides: make_specular.
+    [[nodiscard]] virtual std::vector<std::string> specular_names() const { return {}; }
+    [[nodiscard]] virtual std::shared_ptr<const SpecularEvaluator> specular(std::string_view name) const;
     /// Names of the encoders with which the basis is listed; none: with all that suit it. Others work, too.
     [[nodiscard]] virtual std::vector<std::string> listed_encoders() const { return {}; }
     /// How far E / pi of the best fit to a constant radiance of 1 is from 1 at most, read exactly, at normals that see
@@ -109,6 +114,10 @@ class FittedBasis : public Basis {
     /// Fits cost time, and encoders differ little after one.
     [[nodiscard]] std::vector<std::string> listed_encoders() const override { return {"moments", "least-squares"}; }
 };
+
+[[nodiscard]] inline std::shared_ptr<const SpecularEvaluator> Basis::specular(std::string_view) const {
+    return nullptr;
+}
 
 /// The same object, or null where it is not linear.
 [[nodiscard]] inline std::shared_ptr<const LinearBasis> as_linear(const std::shared_ptr<const Basis>& basis) {

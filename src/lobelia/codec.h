@@ -65,6 +65,10 @@ struct NamePattern {
 [[nodiscard]] Result<std::shared_ptr<const Encoder>> make_encoder(std::string_view name,
                                                                   std::shared_ptr<const Basis> basis);
 [[nodiscard]] Result<std::shared_ptr<const Evaluator>> make_evaluator(std::string_view name, const Basis& basis);
+/// The ways to read glossy reflection from a basis: its own, the most accurate last, then "sampled", which reads any.
+[[nodiscard]] std::vector<std::string> specular_names(const Basis& basis);
+[[nodiscard]] Result<std::shared_ptr<const SpecularEvaluator>> make_specular(std::string_view name,
+                                                                             std::shared_ptr<const Basis> basis);
 /// From "basis/encoder/evaluator"; the error of an unknown name lists the nearest known ones.
 [[nodiscard]] Result<Codec> make_codec(std::string_view name);
 /// The parts of "basis/encoder/evaluator", unchecked but for their number.

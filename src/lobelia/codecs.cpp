@@ -12,12 +12,14 @@
 #include "lobelia/bases/hemisphere_polynomials.h"
 #include "lobelia/bases/octahedral.h"
 #include "lobelia/bases/sg_study.h"
+#include "lobelia/bases/specular_study.h"
 #include "lobelia/bases/spherical_gaussians.h"
 #include "lobelia/bases/spherical_harmonics.h"
 #include "lobelia/bases/zh3.h"
 #include "lobelia/codec.h"
 #include "lobelia/encode/moments.h"
 #include "lobelia/encode/sequential.h"
+#include "lobelia/specular.h"
 
 namespace lobelia {
 namespace {
@@ -52,6 +54,7 @@ constexpr std::array k_patterns = {
 constexpr std::array k_studies = {
     StudyEntry{"irradiance", "Irradiance formulae of spherical Gaussians against the exact integral",
                study_sg_irradiance},
+    StudyEntry{"specular", "Glossy reflection of lobes and harmonics against rays", study_specular},
 };
 
 enum class Needs { any_basis, non_negative_basis };
@@ -206,6 +209,19 @@ Result<std::shared_ptr<const Evaluator>> make_evaluator(std::string_view name, c
     if (auto evaluator = basis.evaluator(name)) return evaluator;
     return Error{"unknown evaluator " + quoted(name) + " for basis " + basis.name() +
                  nearest_names(name, basis.evaluator_names())};
+}
+
+std::vector<std::string> specular_names(const Basis& basis) {
+    auto names = basis.specular_names();
+    names.emplace_back("sampled");
+    return names;
+}
+
+Result<std::shared_ptr<const SpecularEvaluator>> make_specular(std::string_view name, BasisPtr basis) {
+    if (name == "sampled") return make_sampled_specular(std::move(basis));
+    if (auto evaluator = basis->specular(name)) return evaluator;
+    return Error{"unknown reading of gloss " + quoted(name) + " for basis " + basis->name() +
+                 nearest_names(name, specular_names(*basis))};
 }
 
 Result<CodecName> parse_codec_name(std::string_view name) {

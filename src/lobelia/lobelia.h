@@ -11,8 +11,9 @@
 // the coefficients with which the sum of those functions comes close to the radiance.
 //
 // The coefficients, one colour each, are all that has to be stored. From them the basis gives the radiance in a
-// direction, and an evaluator the irradiance at a normal. Basis, encoder and evaluator make a codec: make_codec
-// ("sg12/least-squares/hill") puts one together, all_codecs() lists those that make sense.
+// direction, an evaluator the irradiance at a normal, and a specular evaluator (make_specular) what a glossy surface
+// reflects. Basis, encoder and evaluator make a codec: make_codec ("sg12/least-squares/hill") puts one together,
+// all_codecs() lists those that make sense.
 //
 // How good was it? irradiance_sum is the exact irradiance of an environment, errors() measures against it.
 //
@@ -48,6 +49,12 @@
 #include "lobelia/bases/sh_irradiance.h"
 #include "lobelia/bases/spherical_harmonics.h"
 #include "lobelia/bases/cosine_lobes.h"
+
+// Glossy reflection.
+#include "lobelia/specular.h"
+#include "lobelia/specular/ggx.h"
+#include "lobelia/bases/sg_specular.h"
+#include "lobelia/bases/sh_specular.h"
 
 // Encoders.
 #include "lobelia/encode/encoder.h"

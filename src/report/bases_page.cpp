@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "lobelia/codec.h"
+#include "lobelia/specular.h"
 
 namespace lobelia {
 namespace {
@@ -17,8 +18,8 @@ constexpr const char* k_head =
 
 Written by `lobelia list --markdown` from what the bases say of themselves; a test keeps it current. Conventions of axes,
 harmonics and lobes are in [conventions.md](conventions.md), encoders in [encoders.md](encoders.md), evaluators of lobes
-in [evaluators.md](evaluators.md); [adding-a-basis.md](adding-a-basis.md) tells how to add one. How good each is on an
-environment of yours, `lobelia compare` measures.
+in [evaluators.md](evaluators.md), readings of gloss in [specular.md](specular.md); [adding-a-basis.md](adding-a-basis.md)
+tells how to add one. How good each is on an environment of yours, `lobelia compare` measures.
 
 A **linear** basis is a sum of functions. A **fitted** one is found from the coefficients of a linear basis that is
 accumulated for it, and read in a way of its own. A coefficient is three floats: a colour, or where it says so a vector.
@@ -122,6 +123,19 @@ std::string pictures(const std::vector<BasisPtr>& family) {
     return head + "\n" + rule + "\n" + radiance + "\n" + irradiance + "\n\n";
 }
 
+/// The family's own readings of glossy reflection; nothing where it has none.
+std::string gloss(const std::vector<BasisPtr>& family) {
+    const Basis& first = *family.front();
+    const auto names = first.specular_names();
+    if (names.empty()) return "";
+    std::string text = "\n| gloss | range | error |\n|---|---|---|\n";
+    for (const auto& name : names) {
+        const Accuracy accuracy = first.specular(name)->accuracy();
+        text += "| `" + name + "` | " + accuracy.range + " | " + accuracy.error + " |\n";
+    }
+    return text;
+}
+
 std::string section(const std::vector<BasisPtr>& family) {
     const Basis& first = *family.front();
     const BasisNotes notes = first.notes();
@@ -134,7 +148,7 @@ std::string section(const std::vector<BasisPtr>& family) {
                     (listed.empty() ? std::string("every encoder that suits it") : "the encoders " + joined(listed)) +
                     "." + vectors_among(first)) +
             "\n";
-    return text + evaluators(family);
+    return text + evaluators(family) + gloss(family);
 }
 
 }  // namespace

@@ -26,6 +26,21 @@ class FittedIrradiance final : public Evaluator {
     SgIrradiance kind_;
 };
 
+/// Glossy reflection of the lobes, likewise.
+class FittedSpecular final : public SpecularEvaluator {
+  public:
+    explicit FittedSpecular(std::string_view name) : name_(name) {}
+    [[nodiscard]] std::string name() const override { return name_; }
+    [[nodiscard]] Accuracy accuracy() const override { return make_sg_specular(name_, {})->accuracy(); }
+    void reflected(std::span<const Rgb> c, const SpecularPoints& points, MutableColourView out) const override {
+        const auto [lobes, amplitudes] = FittedGaussians::lobes(c);
+        make_sg_specular(name_, lobes)->reflected(amplitudes, points, out);
+    }
+
+  private:
+    std::string name_;
+};
+
 }  // namespace
 
 Result<std::shared_ptr<const Basis>> FittedGaussians::from_name(std::string_view name) {
@@ -90,6 +105,10 @@ std::shared_ptr<const Evaluator> FittedGaussians::evaluator(std::string_view nam
     const auto names = evaluator_names();
     if (std::find(names.begin(), names.end(), name) == names.end()) return nullptr;
     return std::make_shared<FittedIrradiance>(*sg_irradiance_from_name(name));
+}
+
+std::shared_ptr<const SpecularEvaluator> FittedGaussians::specular(std::string_view name) const {
+    return sg_specular_from_name(name) ? std::make_shared<FittedSpecular>(name) : nullptr;
 }
 
 Basis::Rotated FittedGaussians::rotated(const Rotation& r, std::span<const Rgb> c) const {

@@ -2,8 +2,8 @@
 // projection (Golub and Pereyra 1973), amplitudes by non-negative least squares within.
 #pragma once
 
-#include "lobelia/bases/gaussian.h"
 #include "lobelia/bases/octahedral.h"
+#include "lobelia/bases/sg_specular.h"
 
 namespace lobelia {
 
@@ -33,6 +33,8 @@ class FittedGaussians final : public FittedBasis {
         return {"tokuyoshi", "odd-exact", "odd-exact-2", "exact"};
     }
     [[nodiscard]] std::shared_ptr<const Evaluator> evaluator(std::string_view name) const override;
+    [[nodiscard]] std::vector<std::string> specular_names() const override { return sg_specular_names(); }
+    [[nodiscard]] std::shared_ptr<const SpecularEvaluator> specular(std::string_view name) const override;
     [[nodiscard]] Rotated rotated(const Rotation& r, std::span<const Rgb> c) const override;
 
     /// The lobes that coefficients stand for, and their amplitudes.

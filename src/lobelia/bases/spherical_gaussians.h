@@ -4,8 +4,7 @@
 
 #include <mutex>
 
-#include "lobelia/bases/gaussian.h"
-#include "lobelia/basis.h"
+#include "lobelia/bases/sg_specular.h"
 #include "lobelia/result.h"
 
 namespace lobelia {
@@ -45,6 +44,10 @@ class SphericalGaussians final : public LinearBasis {
     [[nodiscard]] std::vector<double> integrals() const override;
     [[nodiscard]] std::vector<std::string> evaluator_names() const override;
     [[nodiscard]] std::shared_ptr<const Evaluator> evaluator(std::string_view name) const override;
+    [[nodiscard]] std::vector<std::string> specular_names() const override { return sg_specular_names(); }
+    [[nodiscard]] std::shared_ptr<const SpecularEvaluator> specular(std::string_view name) const override {
+        return make_sg_specular(name, lobes_);
+    }
     /// That of twelve lobes; larger sets have less.
     [[nodiscard]] double furnace_bias() const override { return 0.04; }
     [[nodiscard]] Rotated rotated(const Rotation& r, std::span<const Rgb> c) const override;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "lobelia/bases/sh_irradiance.h"
+#include "lobelia/bases/sh_specular.h"
 #include "lobelia/result.h"
 
 namespace lobelia {
@@ -31,6 +32,10 @@ class SphericalHarmonics final : public LinearBasis {
     }
     [[nodiscard]] std::shared_ptr<const Evaluator> evaluator(std::string_view name) const override {
         return sh_evaluator(name, harmonics_.degree());
+    }
+    [[nodiscard]] std::vector<std::string> specular_names() const override { return sh_specular_names(); }
+    [[nodiscard]] std::shared_ptr<const SpecularEvaluator> specular(std::string_view name) const override {
+        return sh_specular(name, harmonics_.degree());
     }
     /// Degree 1 also as l1-over-l0: the mean radiance as halves, and the linear band relative to it in 8 bits.
     [[nodiscard]] std::vector<std::shared_ptr<const TexturePacking>> packings() const override;
