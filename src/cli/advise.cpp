@@ -12,6 +12,7 @@
 #include "cli/common.h"
 #include "cli/verbs.h"
 #include "report/advice.h"
+#include "report/gloss_errors.h"
 #include "report/study_page.h"
 #include "scene/embedded.h"
 
@@ -63,9 +64,21 @@ std::vector<CodecName> best_codecs(const Comparison& comparison, const Options& 
     return names;
 }
 
+Result<std::vector<Candidate>> candidates_for_gloss(const Image& environment, const Options& options) {
+    if (options.domain == Domain::hemisphere)
+        return Error{"--need specular: gloss is judged all around; leave --domain hemisphere out"};
+    GlossOptions judging;
+    judging.storages = storages_of_single_texels();
+    std::vector<Candidate> candidates;
+    for (const GlossError& e : gloss_errors(environment, judging))
+        candidates.push_back({{e.basis, e.encoder, e.reading}, e.storage, e.bytes, e.error, e.nanoseconds});
+    return candidates;
+}
+
 Result<std::vector<Candidate>> candidates_for_environment(const Options& options) {
     auto environment = load(options.environment);
     if (!environment) return environment.error();
+    if (options.advice.need == Need::specular) return candidates_for_gloss(environment->image, options);
     ComparisonOptions comparing;
     comparing.pictures = comparing.convergence = false;
     const auto first = compare(environment->image, all_codecs(), comparing, progress_bar());
@@ -104,8 +117,8 @@ Result<LoadedScene> load_scene_for(const Options& options) {
 }
 
 Result<std::vector<Candidate>> candidates_for_scene(const Options& options) {
-    if (options.advice.need == Need::radiance)
-        return Error{"--need radiance: of lightmaps only the irradiance is known well enough to judge by"};
+    if (options.advice.need != Need::irradiance)
+        return Error{"--need: of lightmaps only the irradiance is known well enough to judge by"};
     const auto scene = load_scene_for(options);
     if (!scene) return scene.error();
     for (const auto& warning : scene->warnings) complain("lobelia: warning: " + warning);
@@ -150,7 +163,8 @@ Status write_advice(const Advice& advice, const std::string& subject, const std:
 }
 
 Status advise_verb(Options options) {
-    options.advice.need = options.need == "radiance" ? Need::radiance : Need::irradiance;
+    if (options.need == "radiance") options.advice.need = Need::radiance;
+    if (options.need == "specular") options.advice.need = Need::specular;
     options.advice.target = options.target / 100;
     if (!options.out.empty())
         if (auto status = check_folder(options.out); !status) return status;
@@ -174,7 +188,7 @@ Verb add_advise(CLI::App& app) {
     command->get_option("ENV")->description(
         "A latitude-longitude environment, \"sky\", a bake's folder, or a scene whose lightmaps are meant");
     command->add_option("--need", options->need, "What is read from the coefficients")
-        ->check(CLI::IsMember({"irradiance", "radiance"}))
+        ->check(CLI::IsMember({"irradiance", "radiance", "specular"}))
         ->capture_default_str();
     command->add_option("--budget", options->advice.budget, "Bytes for a texel or probe at most (default: no limit)")
         ->check(number_in(1, 1e6));

@@ -126,7 +126,17 @@ std::string nanoseconds_text(const Candidate& c) {
 
 }  // namespace
 
-std::string_view to_string(Need need) { return need == Need::radiance ? "radiance" : "irradiance"; }
+std::string_view to_string(Need need) {
+    switch (need) {
+        case Need::radiance:
+            return "radiance";
+        case Need::irradiance:
+            return "irradiance";
+        case Need::specular:
+            return "gloss";
+    }
+    return {};
+}
 
 Result<Advice> advise(std::vector<Candidate> candidates, const AdviceOptions& options) {
     std::erase_if(candidates, [](const Candidate& c) { return !std::isfinite(c.error) || !(c.bytes > 0); });

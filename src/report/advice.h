@@ -12,7 +12,7 @@
 namespace lobelia {
 
 /// What is read from the coefficients.
-enum class Need { radiance, irradiance };
+enum class Need { radiance, irradiance, specular };
 [[nodiscard]] std::string_view to_string(Need need);
 
 /// A codec in a storage, and what it takes and gives.
