@@ -214,8 +214,8 @@ double even_part(const std::vector<double>& series, double c) {
 }
 
 Constants odd_exact_constants(double l, double k, double m) {
-    const auto series = gaussian::irradiance_series(l);
-    const double integral = gaussian::integral(l), f0 = even_part(series, 0), f1 = even_part(series, 1);
+    const double integral = gaussian::integral(l), f0 = gaussian::irradiance(l, 0) / integral,
+                 f1 = (gaussian::irradiance(l, 1) + gaussian::irradiance(l, -1)) / (2 * integral);
     const double slope = f1 * f1 - f0 * f0 * std::exp(-k - m);
     return {integral * gaussian::mean_cosine(l) / 2, integral * integral * f0 * f0, k, m, integral * integral * slope};
 }
