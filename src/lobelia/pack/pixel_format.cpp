@@ -78,8 +78,7 @@ constexpr std::array k_formats = {
     Entry{{"rgb10a2", 3, 1, 4, 64, 0, 1, {.absolute = 0.5 / 1023 + 1e-7}},
           texels::encode_unorm10,
           texels::decode_unorm10},
-    // Nine bits without an implied one: half a step is at most 2^-9 of a largest component just above a power of two,
-    // or of the power of two that one of 511.5 steps and more is rounded to, as the extension has it.
+    // Nine bits without an implied one: half a step is at most 2^-9 of a largest component just above a power of two.
     Entry{{"rgb9e5",
            3,
            1,
@@ -87,7 +86,7 @@ constexpr std::array k_formats = {
            123,
            0,
            texels::k_largest_rgb9e5,
-           {.relative = 0x1p-9 * 512 / 511.5, .of = Of::together, .absolute = 0x1p-25}},
+           {.relative = 0x1p-9, .of = Of::together, .absolute = 0x1p-25}},
           texels::encode_rgb9e5,
           texels::decode_rgb9e5},
     Entry{{"rgbe8",
