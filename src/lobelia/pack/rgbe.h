@@ -25,7 +25,10 @@ inline constexpr float k_least_rgbe = 0x1p-100f;
     // largest: with the next exponent the other components would be off by as much of a step twice as large.
     const std::uint32_t exponent = (std::bit_cast<std::uint32_t>(largest) >> 23) + 2;
     const float steps = std::bit_cast<float>((127 + 136 - exponent) << 23);
-    const auto rounded = [&](float v) { return std::min(static_cast<std::uint32_t>(v * steps + 0.5f), 255u); };
+    const auto rounded = [&](float v) {
+        const float above = v * steps + 0.5f;
+        return std::min(static_cast<std::uint32_t>(above), 255u);
+    };
     return rounded(r) | rounded(g) << 8 | rounded(b) << 16 | exponent << 24;
 }
 
