@@ -258,6 +258,9 @@ TEST(Layouts, NameWhatDoesNotFit) {
     };
     EXPECT_NE(message(world, {.texels_per_metre = 1000}).find("object 1"), std::string::npos);
     EXPECT_NE(message(none, {}).find("lobelia unwrap"), std::string::npos);
+    World named = world;
+    named.names = {"floor", "wall"};
+    EXPECT_NE(message(named, {.texels_per_metre = 1000}).find("'wall' needs"), std::string::npos);
     EXPECT_NE(message(world, {.width = 0}), "");
     EXPECT_NE(message(world, {.width = 1u << 20}), "");
     EXPECT_NE(message(world, {.texels_per_metre = -1}), "");

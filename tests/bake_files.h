@@ -30,7 +30,7 @@ inline Bake some_bake(const std::string& codec, Frame frame = Frame::world) {
     m.warnings = {"a warning"};
     m.options.paths.seed = 0xfffffffe;
     m.options.shard = {Shard::By::samples, 2, 5};
-    m.statistics = {700, 11, 123456789012345u, 1.5, 64, 0.01, 99, 0.001, 0.002};
+    m.statistics = {700, 11, 5, 123456789012345u, 1.5, 64, 0.01, 99, 0.001, 0.002};
     m.objects = {{"floor", {0, {20.3f, 33.1f}, {0.1f, 0.7f}, {0, 0, 21, 34}, true}},
                  {"lamp", {}},
                  {"table", {1, {7.77f, 1e-3f}, {-3.3f, 9}, {1, 2, 9, 20}, true}}};

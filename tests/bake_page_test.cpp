@@ -141,6 +141,54 @@ TEST(BakePage, LargePagesAreReducedToMeansOfTheirCharts) {
     for (const std::uint16_t word : words_of(pictures["E 0"], "half")) EXPECT_EQ(value_of_half(word), 3);
 }
 
+/// Two heights of 2 x 1 probes, constant light of 1, 2, 3 and 4, the last one of no use.
+ProbeSet four_probes(const Codec& codec) {
+    ProbeSet probes;
+    probes.codec = "sh1/moments/convolution";
+    probes.coefficients_per_probe = codec.basis().size();
+    probes.grid = ProbeGrid{{2, 2, 1}, {0, 0, 0}, {1, 2, 1}};
+    for (int i = 0; i < 4; ++i) {
+        probes.positions.push_back({static_cast<float>(i % 2), 2 * static_cast<float>(i / 2) + 0.1f, 0});
+        probes.validity.push_back(i == 3 ? 0.25f : 1.0f);
+        probes.back_faces.push_back(1 - probes.validity.back());
+        const auto light = static_cast<float>((i + 1) * std::sqrt(4 * k_pi));
+        probes.coefficients.push_back({light, light, light});
+        probes.coefficients.resize(probes.coefficients.size() + codec.basis().size() - 1);
+    }
+    return probes;
+}
+
+TEST(ProbePlans, SpheresShowWhatTheirProbesHold) {
+    const Codec codec = *make_codec("sh1/moments/convolution");
+    const ProbeView view = view_probes(four_probes(codec), codec);
+    EXPECT_EQ(view.count, 4u);
+    EXPECT_EQ(view.invalid, 1u);
+    ASSERT_EQ(view.plans.size(), 2u);
+    EXPECT_EQ(view.plans[1].height, 2);
+    for (std::size_t k = 0; k < 2; ++k) {
+        const ProbePlan& plan = view.plans[k];
+        EXPECT_EQ(plan.count, 2u);
+        std::size_t covered = 0;
+        for (std::size_t i = 0; i < plan.marks.size(); ++i) {
+            if (plan.marks[i] == ProbePlan::k_nothing) continue;
+            ++covered;
+            const bool right = i % plan.image.width >= plan.image.width / 2;
+            EXPECT_NEAR(plan.image.pixels[i].g, static_cast<float>(2 * k + 1 + right), 1e-4f);
+            EXPECT_EQ(plan.marks[i], k == 1 && right ? ProbePlan::k_invalid : ProbePlan::k_valid);
+        }
+        // Two discs of 0.44 of the spacing.
+        const double wanted = 2 * k_pi * std::pow(0.44 * 24, 2);
+        EXPECT_NEAR(static_cast<double>(covered), wanted, 0.05 * wanted);
+    }
+
+    SmallBake bake;
+    bake.page.probes = view;
+    const std::string html = bake_html(bake.page);
+    EXPECT_EQ(data_of(html)["probes"]["invalid"], 1);
+    const auto plan = data_of(html)["probes"]["plans"][1];
+    EXPECT_EQ(words_of(pictures_of(html)[plan["marks"].get<std::string>()], "whole"), view.plans[1].marks);
+}
+
 TEST(ObjectFigures, CountAndAverageValidTexels) {
     const SmallBake bake;
     const auto& objects = bake.page.objects;

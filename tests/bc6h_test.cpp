@@ -144,7 +144,7 @@ class RandomBlocks {
     std::mt19937 generator_;
 };
 
-TEST(Bc6hEncoder, FlatBlocksKeepTheirHalves) {
+TEST(Bc6hEncoder, FlatBlocksAreAsNearAsHalvesCanBe) {
     RandomBlocks random(1);
     for (const Signedness sign : k_signs)
         for (int n = 0; n < 2000; ++n) {
@@ -155,9 +155,12 @@ TEST(Bc6hEncoder, FlatBlocksKeepTheirHalves) {
                 std::fill_n(channel, 16, v);
             }
             const Block back = b.through(sign);
+            // Between two halves either may come.
             for (std::size_t c = 0; c < 3; ++c)
-                for (std::size_t i = 0; i < 16; ++i)
-                    ASSERT_EQ(back.values[c][i], float_from_half(half_from_float(b.values[c][i])));
+                for (std::size_t i = 0; i < 16; ++i) {
+                    const float v = b.values[c][i], nearest = float_from_half(half_from_float(v));
+                    ASSERT_EQ(std::abs(back.values[c][i] - v), std::abs(nearest - v)) << v;
+                }
         }
 }
 

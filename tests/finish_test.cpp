@@ -3,9 +3,13 @@
 
 #include <oneapi/tbb/global_control.h>
 
+#include <map>
 #include <random>
+#include <set>
+#include <tuple>
 
-#include "baker/atlas/edges.h"
+#include "baker/atlas/split_edges.h"
+#include "lobelia/codec.h"
 #include "scenes.h"
 #include "support.h"
 
@@ -20,6 +24,35 @@ template <class Run>
 auto with_threads(std::size_t threads, const Run& run) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     return run();
+}
+
+// ---- Fits
+
+TEST(FitPages, EveryTexelIsFittedAndNothingElseChanges) {
+    const auto basis = make_basis("zh3").value();
+    const std::size_t n = basis->fitted()->accumulated()->size();
+    const PageLayout source{n}, target{basis->size()};
+    Page page(7, 5, source.channels());
+    std::mt19937 generator(3);
+    for (auto& plane : page.planes)
+        for (float& v : plane) v = static_cast<float>(generator() % 1000) / 500 - 0.5f;
+    for (std::size_t i = 0; i < page.size(); ++i) page.chart[i] = static_cast<std::uint32_t>(generator() % 3);
+    const std::vector<Page> pages{page};
+    const auto fitted = fit_pages(pages, *basis->fitted());
+    ASSERT_EQ(fitted.size(), 1u);
+    EXPECT_EQ(fitted[0].chart, page.chart);
+    EXPECT_EQ(fitted[0].planes[target.error()], page.planes[source.error()]);
+    EXPECT_EQ(fitted[0].planes[target.irradiance(2)], page.planes[source.irradiance(2)]);
+    for (std::size_t pixel = 0; pixel < page.size(); ++pixel) {
+        std::vector<Rgb> accumulated(n), c(basis->size());
+        for (std::size_t i = 0; i < n; ++i)
+            accumulated[i] = {page.planes[3 * i][pixel], page.planes[3 * i + 1][pixel], page.planes[3 * i + 2][pixel]};
+        basis->fitted()->fit(accumulated, c);
+        for (std::size_t i = 0; i < c.size(); ++i) {
+            ASSERT_EQ(fitted[0].planes[3 * i][pixel], c[i].r);
+            ASSERT_EQ(fitted[0].planes[3 * i + 2][pixel], c[i].b);
+        }
+    }
 }
 
 // ---- Dilation
@@ -445,6 +478,20 @@ TEST(Seams, WithinOneChartCloseToo) {
     EXPECT_LT(report.after, 0.1 * report.before);
 }
 
+/// A square beside two halves of one: no edge of the left matches one of the right from end to end.
+TEST(Seams, CloseAtTJunctions) {
+    const Mesh left = parallelogram({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.05f, 0.05f}, {0.45f, 0.45f});
+    const Mesh lower = parallelogram({1, 0, 0}, {1, 0, 0}, {0, 0.5f, 0}, {0.55f, 0.05f}, {0.95f, 0.25f});
+    const Mesh upper = parallelogram({1, 0.5f, 0}, {1, 0, 0}, {0, 0.5f, 0}, {0.55f, 0.35f}, {0.95f, 0.55f});
+    const World world = make_world(scene_of({left, lower, upper}));
+    const Atlas atlas = *Atlas::make(world, {.width = 64, .height = 64});
+    const PageLayout layout{1};
+    auto pages = pages_with(atlas, map_texels(atlas), layout, uneven_light);
+    const SeamReport report = close_seams(pages, layout, atlas);
+    EXPECT_EQ(report.edges, 3u);  // the halves of the long edge, and the edge between the two on the right
+    EXPECT_LT(report.after, 0.1 * report.before);
+}
+
 TEST(Seams, StopAtCreasesAndUnbakedObjects) {
     const PageLayout layout{1};
     const Mesh floor = parallelogram({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0}, {0.4f, 0.4f});
@@ -490,6 +537,42 @@ TEST(Edges, WeldEqualsTheSearchOfAllPairs) {
     const auto welded = weld_positions(world, k_near);
     for (std::size_t i = 0; i < cluster.size(); ++i)
         for (std::size_t j = 0; j < cluster.size(); ++j) EXPECT_EQ(welded[i] == welded[j], cluster[i] == cluster[j]);
+}
+
+TEST(Edges, SplitEqualsTheSearchOfAllPairs) {
+    // Loose edges on a small lattice: many end within others.
+    World world;
+    std::mt19937 generator(9);
+    std::vector<EdgePiece> pieces;
+    const auto lattice = [&] { return static_cast<float>(generator() % 4); };
+    for (std::uint32_t x = 0; x < 64; ++x)
+        world.positions.push_back(
+            {static_cast<float>(x % 4), static_cast<float>(x / 4 % 4), static_cast<float>(x / 16)});
+    const auto vertex = [&] { return static_cast<std::uint32_t>(lattice() + 4 * lattice() + 16 * lattice()); };
+    for (std::uint32_t t = 0; t < 150; ++t) {
+        const std::uint32_t a = vertex(), b = vertex();
+        if (a != b) pieces.push_back({std::min(a, b), std::max(a, b), t, 0, 0, 1});
+    }
+    std::set<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>> found, wanted;
+    for (const EdgePiece& piece : split_edges(world, pieces, 1e-3f)) {
+        EXPECT_LT(piece.low, piece.high);
+        found.insert({piece.triangle, piece.low, piece.high});
+    }
+    for (const EdgePiece& piece : pieces) {
+        const Vec3 a = world.positions[piece.low], d = world.positions[piece.high] - a;
+        std::map<float, std::uint32_t> on{{0.0f, piece.low}, {1.0f, piece.high}};
+        for (const EdgePiece& other : pieces)
+            for (const std::uint32_t v : {other.low, other.high}) {
+                const Vec3 p = world.positions[v] - a;
+                const float s = dot(p, d) / dot(d, d);
+                if (s > 0.01f && s < 0.99f && length(p - d * s) < 1e-3f) on[std::round(s * 1000) / 1000] = v;
+            }
+        for (auto at = on.begin(); std::next(at) != on.end(); ++at)
+            wanted.insert({piece.triangle, std::min(at->second, std::next(at)->second),
+                           std::max(at->second, std::next(at)->second)});
+    }
+    EXPECT_GT(found.size(), pieces.size() + 10);
+    EXPECT_EQ(found, wanted);
 }
 
 }  // namespace

@@ -66,6 +66,25 @@ TEST(EveryFittedBasis, NothingGivesZeros) {
     }
 }
 
+TEST(EveryFittedBasis, KeepsTheStateOfWhatItAccumulates) {
+    Samples samples(8), sources(2);
+    for (std::size_t i = 0; i < 8; ++i)
+        samples.set(i, {normalize(Vec3{1, 2, 1.0f + static_cast<float>(i)}), {1, 2, 3}, 0.3f});
+    for (std::size_t i = 0; i < 2; ++i) sources.set(i, {normalize(Vec3{0, 1, 1}), {900, 900, 900}, 1e-4f});
+    for (const auto& name : fitted_names())
+        for (const auto& encoder_name : encoder_names(*basis_of(name))) {
+            SCOPED_TRACE(name + "/" + encoder_name);
+            const auto encoder = make_encoder(encoder_name, basis_of(name)).value();
+            EXPECT_EQ(encoder->accumulating().basis().name(), basis_of(name)->fitted()->accumulated()->name());
+            std::vector<float> state(encoder->state_size()), expected(state.size());
+            encoder->add(state, samples);
+            encoder->add_sources(state, sources);
+            encoder->accumulating().add(expected, samples);
+            encoder->accumulating().add_sources(expected, sources);
+            EXPECT_EQ(state, expected);
+        }
+}
+
 TEST(EveryFittedBasis, LightGrowsWithTheLightAndShapeDoesNot) {
     for (const auto& name : fitted_names()) {
         const auto basis = basis_of(name);

@@ -216,7 +216,7 @@ Scene random_scene(std::uint32_t seed) {
             mesh.positions.push_back(point());
             if (i != 1) mesh.normals.push_back(normalize(point() + Vec3{0, 0, 20}));
             mesh.uv[0].push_back({number(), number()});
-            if (i == 2) mesh.uv[1].push_back({number(), number()});
+            if (i > 1) mesh.uv[1].push_back({number(), number()});
             if (i != 3) mesh.lightmap_uv.push_back({number(), number()});
             if (i == 0) mesh.colors.push_back({number(), number(), number(), number()});
         }
@@ -253,6 +253,21 @@ TEST(RoundTrip, RandomScenes) {
         // A second set that is not the lightmap's is TEXCOORD_2; the lowest two that are used are read: 0 and 2.
         expect_same(scene, loaded);
     }
+}
+
+TEST(RoundTrip, SetsOfCoordinatesAreNumberedWithoutGaps) {
+    Scene scene = random_scene(1);
+    scene.meshes[3].uv[0].clear();
+    const std::string bytes = encode_glb(scene).value();
+    std::uint32_t json_bytes = 0;
+    std::memcpy(&json_bytes, bytes.data() + 12, sizeof json_bytes);
+    const json root = json::parse(bytes.substr(20, json_bytes));
+    for (const json& mesh : root["meshes"])
+        for (const json& primitive : mesh["primitives"])
+            for (int set = 2; set > 0; --set)
+                EXPECT_LE(primitive["attributes"].contains("TEXCOORD_" + std::to_string(set)),
+                          primitive["attributes"].contains("TEXCOORD_" + std::to_string(set - 1)));
+    EXPECT_TRUE(written_and_read(scene).meshes[3].lightmap_uv.empty());
 }
 
 TEST(RoundTrip, LightmapUvsAndExtrasOfTheWriter) {
@@ -440,7 +455,7 @@ TEST(Gltf, FlatPartsOfSmoothMeshesStayFlat) {
     EXPECT_EQ(mesh.normals[8], (Vec3{0, 0, 1}));
     EXPECT_EQ(mesh.normals[9], (Vec3{0, 0, 1}));
     ASSERT_EQ(loaded->warnings.size(), 1u);
-    EXPECT_TRUE(has(loaded->warnings[0], "2 normals are no directions"));
+    EXPECT_TRUE(has(loaded->warnings[0], "2 normals without a direction"));
 }
 
 TEST(Gltf, DeepHierarchiesAreNoStackOverflow) {
@@ -457,13 +472,23 @@ TEST(Gltf, DeepHierarchiesAreNoStackOverflow) {
 TEST(Gltf, WarningsNameWhatIsLeftOut) {
     GltfFile file = rich_file();
     file.root["extensionsUsed"].push_back("KHR_materials_transmission");
+    file.root["extensionsUsed"].push_back("KHR_node_visibility");
     file.root["nodes"][0]["skin"] = 0;
+    file.root["animations"] = {{{"channels", nlohmann::json::array()}}};
+    const std::size_t first = file.root["materials"].size();
+    for (const char* map : {"normalTexture", "occlusionTexture", "normalTexture"})
+        file.add("materials", {{"name", "bumpy"}, {map, {{"index", 0}}}});
     const auto loaded = read(file.glb());
     ASSERT_TRUE(loaded) << loaded.error().message;
     std::string all;
     for (const std::string& warning : loaded->warnings) all += warning + "\n";
     EXPECT_TRUE(has(all, "KHR_materials_transmission: not read"));
+    EXPECT_TRUE(has(all, "KHR_node_visibility: not read"));
     EXPECT_TRUE(has(all, "nodes[0]: its skin is not read"));
+    EXPECT_TRUE(has(all, "animations: not read"));
+    const std::string at = "materials[" + std::to_string(first);
+    EXPECT_TRUE(has(all, "materials: 2 with normal maps, the first " + at + "] \"bumpy\": not read"));
+    EXPECT_TRUE(has(all, "materials: 1 with occlusion maps, the first materials[" + std::to_string(first + 1)));
     EXPECT_TRUE(has(all, "meshes[1].primitives[2]: points or lines"));
     EXPECT_TRUE(has(all, "meshes[1]: only 1 of 2 parts have TEXCOORD_1"));
 }
@@ -581,7 +606,7 @@ TEST(BadGltf, NumbersThatAreNone) {
     const auto loaded = read(file.glb());
     ASSERT_TRUE(loaded);
     ASSERT_EQ(loaded->warnings.size(), 1u);
-    EXPECT_TRUE(has(loaded->warnings[0], "1 triangles have no area, the first is meshes[0], triangle 1"));
+    EXPECT_TRUE(has(loaded->warnings[0], "1 triangle without area, the first is meshes[0], triangle 1"));
 }
 
 TEST(BadGltf, RequiredExtensionsNameTheRemedy) {

@@ -153,6 +153,30 @@ TEST(WritePng, RoundTripWithinHalfALevel) {
     }
 }
 
+TEST(ToneCurve, RisesFromBlackToWhite) {
+    for (const ToneCurve curve : {ToneCurve::clamp, ToneCurve::reinhard, ToneCurve::filmic}) {
+        EXPECT_EQ(toned(curve, 0), 0);
+        EXPECT_EQ(toned(curve, -1), 0);
+        EXPECT_EQ(toned(curve, std::numeric_limits<double>::quiet_NaN()), 0);
+        EXPECT_NEAR(toned(curve, std::numeric_limits<double>::infinity()), 1, 1e-6);
+        double before = 0;
+        for (double x = 1e-4; x < 100; x *= 1.1) {
+            EXPECT_GE(toned(curve, x), before);
+            EXPECT_LE(before = toned(curve, x), 1);
+        }
+    }
+    // What is brighter than white differs where the curve is not cut off there.
+    Image image(2, 1);
+    image.pixels = {{1.0f, 1.0f, 1.0f}, {2.0f, 2.0f, 2.0f}};
+    const auto levels = [&](ToneCurve curve) {
+        const Image8 picture = to_srgb(image, 1, curve);
+        return std::pair(picture.rgb[0], picture.rgb[3]);
+    };
+    EXPECT_EQ(levels(ToneCurve::clamp), (std::pair<std::uint8_t, std::uint8_t>(255, 255)));
+    EXPECT_LT(levels(ToneCurve::filmic).first, levels(ToneCurve::filmic).second);
+    EXPECT_EQ(levels(ToneCurve::reinhard).first, 188);  // one half
+}
+
 TEST(ReadLdr, PicturesNeedTheOption) {
     const auto png = encode_png(to_srgb(test_image(16, 8), 0.02f));
     ASSERT_TRUE(png);

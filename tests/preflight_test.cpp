@@ -136,9 +136,9 @@ TEST(Preflight, FindsBadTriangles) {
     EXPECT_EQ(checked.found.objects[0].degenerate_triangles, 1u);
     EXPECT_EQ(checked.found.objects[0].unmapped_triangles, 1u);
     EXPECT_EQ(checked.found.objects[0].non_manifold_edges, 1u);
-    EXPECT_TRUE(checked.warns_of("degenerate"));
-    EXPECT_TRUE(checked.warns_of("without area on the page"));
-    EXPECT_TRUE(checked.warns_of("three triangles and more"));
+    EXPECT_TRUE(checked.warns_of("1 degenerate triangle (1 of"));
+    EXPECT_TRUE(checked.warns_of("1 triangle without area on the page (1 of"));
+    EXPECT_TRUE(checked.warns_of("1 edge of three triangles and more (1 of"));
 }
 
 TEST(Preflight, NamesObjectsWithoutUVs) {
@@ -147,7 +147,18 @@ TEST(Preflight, NamesObjectsWithoutUVs) {
     Scene scene = scene_of({square_at(0, 0, 1), bare});
     scene.objects[1].name = "curtain";
     const Checked checked(std::move(scene), shared_page(32));
-    EXPECT_TRUE(checked.warns_of("'curtain' has no lightmap UVs"));
+    EXPECT_TRUE(checked.warns_of("1 object without lightmap UVs ('curtain')"));
+    EXPECT_EQ(warnings(checked.found, checked.scene).size(), 1u);
+}
+
+/// A scene may hold thousands of them.
+TEST(Preflight, SaysOnceHowManyHaveNoUVs) {
+    Scene scene = scene_of({square_at(0, 0, 1)});
+    scene.meshes.push_back(square_at(0, 0, 1));
+    scene.meshes[1].lightmap_uv.clear();
+    for (int i = 0; i < 100; ++i) scene.objects.push_back({"post", 1, {}});
+    const Checked checked(std::move(scene), shared_page(32));
+    EXPECT_TRUE(checked.warns_of("100 objects without lightmap UVs ('post', 'post', 'post', 'post' and 96 more)"));
     EXPECT_EQ(warnings(checked.found, checked.scene).size(), 1u);
 }
 

@@ -255,6 +255,24 @@ TEST(RenderPaths, UnlitSurfacesBlend) {
     EXPECT_NEAR(mean, 0.25, 5 * std::sqrt(0.25 * 0.75 / 52096));
 }
 
+TEST(RenderPaths, UnlitSurfacesShowBehindWhatBlends) {
+    Scene scene = test::scene_of({test::parallelogram({-9, -9, -1}, {18, 0, 0}, {0, 18, 0}),
+                                  test::parallelogram({-9, -9, -2}, {18, 0, 0}, {0, 18, 0})});
+    scene.materials.resize(2);
+    scene.materials[0].alpha = 0.25f;
+    scene.materials[0].alpha_mode = Material::Alpha::blend;
+    scene.materials[1].unlit = true;
+    scene.meshes[1].materials.assign(2, 1);
+    RenderOptions options = small();
+    options.samples = 64;
+    double mean = 0;
+    const Image image = paths(scene, {}, options);
+    for (const Rgb& pixel : image.pixels)
+        mean += static_cast<double>(pixel.r) / static_cast<double>(image.pixels.size());
+    // Three quarters of white behind black; five standard errors of as many choices.
+    EXPECT_NEAR(mean, 0.75, 5 * std::sqrt(0.25 * 0.75 / 52096));
+}
+
 TEST(Render, SameBitsAtAnyNumberOfThreads) {
     const Scene scene = cornell_scene();
     const World world = make_world(scene);

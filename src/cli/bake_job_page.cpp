@@ -39,7 +39,7 @@ Preflight preflight_of(const Baker& baker, std::optional<TraceRate> rate) {
 Result<std::string> job_page(const BakeJob& job, const Scene& scene, const Baker& baker, const Bake& bake,
                              const Preflight& checked, const std::atomic<bool>& stop) {
     BakePage page = bake_page_of(scene, baker, bake);
-    page.warnings = warnings(checked, scene);
+    page.warnings = bake.manifest.warnings;
     add_preflight(page, checked, scene, baker.atlas(), baker.texels());
 
     RenderOptions pictures;
@@ -57,7 +57,7 @@ Result<std::string> job_page(const BakeJob& job, const Scene& scene, const Baker
 
 Status preflight_job(const BakeJob& job) {
     if (auto status = check_folder(job.out); !status) return status;
-    auto loaded = load_scene(job.scene);
+    auto loaded = load_scene_to_bake(job.scene);
     if (!loaded) return loaded.error();
     for (const auto& warning : loaded->warnings) complain("lobelia: warning: " + warning);
     const auto baker = Baker::make(loaded->scene, job.bake);

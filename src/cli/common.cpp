@@ -108,6 +108,17 @@ Status check_folder(const std::filesystem::path& folder) {
     return Done{};
 }
 
+Status check_file(const std::filesystem::path& file) {
+    namespace fs = std::filesystem;
+    std::error_code code;
+    const fs::path folder = fs::absolute(file, code).parent_path();
+    if (!fs::is_directory(folder, code))
+        return Error{file.string() + ": cannot be written: there is no folder " + folder.string()};
+    if (access(folder.c_str(), W_OK | X_OK) != 0)
+        return Error{file.string() + ": cannot be written: " + std::generic_category().message(errno)};
+    return Done{};
+}
+
 Status write_into_folder(const std::filesystem::path& folder, std::span<const FileContent> files) {
     std::error_code code;
     const bool made = std::filesystem::create_directories(folder, code);

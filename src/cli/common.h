@@ -52,6 +52,9 @@ void add_sampling_options(CLI::App& command, SamplingOptions& options);
 /// Whether files can be written into the folder, which need not be there yet: asked before the work, so that a bad one
 /// costs no time.
 [[nodiscard]] Status check_folder(const std::filesystem::path& folder);
+/// An error where a file of that name could not be written for want of its folder or of permission; to be asked before
+/// long work.
+[[nodiscard]] Status check_file(const std::filesystem::path& file);
 
 /// Makes the folder if it is missing, and writes all files or none; a folder made in vain is removed again.
 [[nodiscard]] Status write_into_folder(const std::filesystem::path& folder, std::span<const FileContent> files);

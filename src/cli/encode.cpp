@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "cli/bake_input.h"
 #include "cli/common.h"
 #include "cli/eval_bake.h"
 #include "cli/verbs.h"

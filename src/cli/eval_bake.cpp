@@ -12,11 +12,6 @@ namespace lobelia::cli {
 
 namespace fs = std::filesystem;
 
-bool is_bake(const std::string& path) {
-    std::error_code code;
-    return fs::is_directory(path, code) || fs::path(path).filename() == k_manifest_name;
-}
-
 Status eval_bake(const EvalBakeOptions& options) {
     // The pages of irradiance have the names of the bake's own.
     std::error_code code;

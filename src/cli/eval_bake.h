@@ -7,9 +7,6 @@
 
 namespace lobelia::cli {
 
-/// Whether a path names a bake: its folder, or the bake.json in it.
-[[nodiscard]] bool is_bake(const std::string& path);
-
 struct EvalBakeOptions {
     std::string bake;
     std::string evaluator;  ///< empty: the codec's own

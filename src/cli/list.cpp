@@ -90,8 +90,8 @@ Status print_layouts(const std::string& name, Output output) {
 Verb add_list(CLI::App& app) {
     CLI::App* command = app.add_subcommand("list", "Print the codecs, or what they are made of");
     auto options = std::make_shared<Options>();
-    CLI::Option* axes = command->add_flag(
-        "--axes", options->axes, "The bases, encoders, evaluators and storages with what they are, instead");
+    CLI::Option* axes = command->add_flag("--axes", options->axes,
+                                          "The bases, encoders, evaluators and storages with what they are, instead");
     command->add_flag("--markdown", options->markdown, "The page of bases, docs/bases.md, instead")->excludes(axes);
     auto* layouts = command->add_option("--storages", options->storages,
                                         "The textures in which each storage that suits keeps the coefficients of this "

@@ -27,6 +27,8 @@ and measures how wrong each choice is.
   lobelia study irradiance                 how good each irradiance formula is
   lobelia scene cornell -o cornell.glb     a scene to bake
   lobelia unwrap in.glb -o out.glb         lightmap UVs for a scene of yours
+  lobelia bake cornell -o bake             lightmaps of a scene, and a page that shows them
+  lobelia render bake -o picture.png       the scene, lit by its bake
 
 lobelia -h tells more, lobelia VERB -h all of a verb's options.
 )";

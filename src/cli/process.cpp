@@ -44,7 +44,8 @@ std::string text_of(const std::filesystem::path& path) {
 
 }  // namespace
 
-Result<Finished> run_program(const std::vector<std::string>& arguments, std::chrono::seconds most) {
+Result<Finished> run_program(const std::vector<std::string>& arguments, std::chrono::seconds most,
+                             const std::atomic<bool>& stop) {
     const auto folder = TemporaryFolder::make();
     if (!folder) return folder.error();
     const auto out = folder->path() / "out", err = folder->path() / "err";
@@ -57,9 +58,10 @@ Result<Finished> run_program(const std::vector<std::string>& arguments, std::chr
     auto pause = std::chrono::milliseconds(2);
     int status = 0;
     while (waitpid(*child, &status, WNOHANG) == 0) {
-        if (Clock::now() > deadline) {
+        if (const bool late = Clock::now() > deadline; late || stop) {
             kill(*child, SIGKILL);
             waitpid(*child, &status, 0);
+            if (!late) return Error{"stopped"};
             return Error{fmt::format("{} was stopped: it took longer than {} s", arguments[0], most.count())};
         }
         std::this_thread::sleep_for(pause);

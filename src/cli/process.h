@@ -1,6 +1,7 @@
 // Another program, run to its end.
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <filesystem>
 #include <string>
@@ -17,8 +18,9 @@ struct Finished {
 };
 
 /// Runs arguments[0], found on PATH, with the rest as they are: no shell sees them. Its input is empty. An error where
-/// it cannot be started, dies of a signal, or lasts longer than `most`: then it is killed.
-[[nodiscard]] Result<Finished> run_program(const std::vector<std::string>& arguments, std::chrono::seconds most);
+/// it cannot be started or dies of a signal, and where it lasts longer than `most` or `stop` is set: then it is killed.
+[[nodiscard]] Result<Finished> run_program(const std::vector<std::string>& arguments, std::chrono::seconds most,
+                                           const std::atomic<bool>& stop);
 
 /// The folder of this program's own file.
 [[nodiscard]] std::filesystem::path program_folder();

@@ -1,16 +1,17 @@
 // lobelia render: a scene by paths, or as a bake shows it, from one of its cameras.
 #include <fmt/core.h>
 
-#include <charconv>
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 
 #include "baker/output/bake_folder.h"
 #include "baker/output/scene_copy.h"
 #include "baker/render/render.h"
+#include "cli/bake_input.h"
 #include "cli/camera.h"
 #include "cli/common.h"
-#include "cli/eval_bake.h"
 #include "cli/scene_input.h"
 #include "cli/verbs.h"
 #include "io/write_image.h"
@@ -27,8 +28,15 @@ struct Options {
     PathOptions paths;
     RenderOptions render;
     std::optional<double> exposure;
+    std::string tone = "filmic";
     bool truth = false;
 };
+
+constexpr std::array k_tone_names{"clamp", "reinhard", "filmic"};
+
+ToneCurve tone_of(const std::string& name) {
+    return static_cast<ToneCurve>(std::find(k_tone_names.begin(), k_tone_names.end(), name) - k_tone_names.begin());
+}
 
 /// The picture as the file's name wants it.
 Status write_picture(const Options& options, const Image& image) {
@@ -36,10 +44,10 @@ Status write_picture(const Options& options, const Image& image) {
     double mean = 0;
     for (const Rgb& pixel : image.pixels) mean += static_cast<double>(luminance(pixel));
     mean /= static_cast<double>(image.pixels.size());
-    // Without an exposure the mean luminance is a quarter of white.
+    // Without an exposure the mean luminance is a quarter of white, as on the pages.
     const double automatic = mean > 0 ? 0.25 / mean : 1;
     const double exposure = options.exposure ? std::exp2(*options.exposure) : automatic;
-    return write_png(options.out, to_srgb(image, static_cast<float>(exposure)));
+    return write_png(options.out, to_srgb(image, static_cast<float>(exposure), tone_of(options.tone)));
 }
 
 Result<Image> finished(std::optional<Image> image) {
@@ -58,20 +66,10 @@ Result<Image> render_scene(const Options& options, const Scene& scene) {
     return finished(render_paths(tracer, *camera, options.render));
 }
 
-/// The scene of a bake: the copy in its folder, or the embedded one of its name.
-Result<LoadedScene> scene_of(const Options& options, const Manifest& manifest) {
-    const fs::path folder = bake_folder(options.scene.path);
-    SceneOptions scene = options.scene;
-    scene.uv_set = SceneOptions().uv_set;
-    scene.path = manifest.scene ? (folder / *manifest.scene).string() : manifest.scene_name;
-    if (!scene.environment && manifest.environment) scene.environment = (folder / *manifest.environment).string();
-    return load_scene(scene);
-}
-
 Result<Image> render_baked(const Options& options) {
     const auto bake = read_bake(options.scene.path);
     if (!bake) return bake.error();
-    const auto scene = scene_of(options, bake->manifest);
+    const auto scene = load_scene_of_bake(options.scene, bake->manifest);
     if (!scene) return scene.error();
     for (const auto& warning : scene->warnings) complain("lobelia: warning: " + warning);
     if (options.truth) {
@@ -114,6 +112,7 @@ Status render_verb(const Options& given) {
     const auto extension = fs::path(options.out).extension();
     if (extension != ".exr" && extension != ".png")
         return Error{options.out + ": the picture's name must end in .exr or .png"};
+    if (auto status = check_file(options.out); !status) return status;
     options.render.progress = progress_bar();
 
     if (is_bake(options.scene.path)) {
@@ -155,8 +154,13 @@ Verb add_render(CLI::App& app) {
     command->add_option("-t,--threads", options->render.threads, "0: all processors")
         ->check(CLI::Range(0u, 1024u))
         ->capture_default_str();
-    command->add_option("--exposure", options->exposure, "Of .png pictures [EV] (default: mean as a quarter of white)")
+    command
+        ->add_option("--exposure", options->exposure,
+                     "Of .png pictures, radiance times 2^this [EV] (default: its mean becomes a quarter of white)")
         ->check(number_in(-32, 32));
+    command->add_option("--tone", options->tone, "Of .png pictures: how what is brighter than white is shown")
+        ->check(CLI::IsMember(std::vector<std::string>(k_tone_names.begin(), k_tone_names.end())))
+        ->capture_default_str();
     command->add_option("-o,--output", options->out, "The file to write: .exr, linear, or .png")->required();
     return {command, [options] { return render_verb(*options); }};
 }

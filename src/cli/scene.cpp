@@ -18,6 +18,7 @@ struct Options {
 };
 
 Status scene_verb(const Options& options) {
+    if (!options.out.ends_with(".glb")) return Error{options.out + ": the file's name must end in .glb"};
     // Make everything before the first file is written.
     const auto scene = embedded_scene(options.name);
     if (!scene) return scene.error();

@@ -111,4 +111,15 @@ Result<LoadedScene> load_scene(const SceneOptions& options) {
     return scene;
 }
 
+Result<LoadedScene> load_scene_to_bake(const SceneOptions& options) {
+    auto loaded = load_scene(options);
+    if (!loaded) return loaded;
+    const auto& meshes = loaded->scene.meshes;
+    if (std::all_of(meshes.begin(), meshes.end(), [](const Mesh& mesh) { return mesh.lightmap_uv.empty(); }))
+        return Error{
+            fmt::format("{}: no object has lightmap UVs (TEXCOORD_{}); lobelia unwrap {} -o OUT.glb makes them",
+                        options.path, options.uv_set, options.path)};
+    return loaded;
+}
+
 }  // namespace lobelia::cli

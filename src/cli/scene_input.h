@@ -45,6 +45,9 @@ void visit_scene_fields(Field& field, Options& options) {
 /// Makes or reads the scene and sets its environment; it has passed check_scene. Warnings are returned, not printed.
 [[nodiscard]] Result<LoadedScene> load_scene(const SceneOptions& options);
 
+/// The same, where at least one object has lightmap UVs.
+[[nodiscard]] Result<LoadedScene> load_scene_to_bake(const SceneOptions& options);
+
 /// Sets the environment as the options say; warnings are added to `scene`.
 [[nodiscard]] Status set_environment(LoadedScene& scene, const SceneOptions& options);
 

@@ -2,11 +2,12 @@
 #include <fmt/core.h>
 
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "cli/common.h"
+#include "cli/interrupt.h"
 #include "cli/process.h"
 #include "cli/verbs.h"
+#include "io/counted.h"
 #include "io/read_file.h"
 #include "scene/gltf_read.h"
 #include "scene/lightmap_check.h"
@@ -41,8 +42,8 @@ Result<std::filesystem::path> script_folder() {
 }
 
 /// Says what is missing before anything is read.
-Status check_tools(const std::filesystem::path& folder) {
-    const auto node = run_program({"node", "--version"}, std::chrono::seconds(20));
+Status check_tools(const std::filesystem::path& folder, const std::atomic<bool>& stop) {
+    const auto node = run_program({"node", "--version"}, std::chrono::seconds(20), stop);
     if (!node || node->code != 0)
         return Error{
             "lobelia unwrap needs Node.js 18 or newer, and no \"node\" can be run; setup/packages node "
@@ -89,47 +90,67 @@ Status check_result(const std::filesystem::path& file, const Options& options) {
     return Done{};
 }
 
-Status unwrap_verb(const Options& options) {
-    // Look at options, input and tools before the work.
-    if (const auto status = check_options(options); !status) return status;
-    const auto input = read_gltf(options.in);
-    if (!input) return input.error();
-    const auto folder = script_folder();
-    if (!folder) return folder.error();
-    if (const auto status = check_tools(*folder); !status) return status;
-
-    // Run the script on a file in passing.
-    const auto passing = TemporaryFolder::make();
-    if (!passing) return passing.error();
-    const auto file = passing->path() / "unwrapped.glb";
+/// Runs the script, whose output is `file`; what it printed.
+Result<std::string> run_script(const Options& options, const std::filesystem::path& folder,
+                               const std::filesystem::path& file, const std::atomic<bool>& stop) {
     nlohmann::json arguments = {{"layout", options.layout}, {"padding", options.padding}, {"uvSet", options.uv_set}};
     arguments["size"] = options.size ? nlohmann::json(*options.size) : nlohmann::json();
     arguments["texelsPerMetre"] =
         options.texels_per_metre ? nlohmann::json(*options.texels_per_metre) : nlohmann::json();
-    const std::string script = (*folder / "unwrap.mjs").string();
+    const std::string script = (folder / "unwrap.mjs").string();
     const std::string in = std::filesystem::absolute(options.in).string();
-    const auto finished =
-        run_program({"node", script, in, file.string(), arguments.dump()}, std::chrono::seconds(options.timeout));
+    auto finished =
+        run_program({"node", script, in, file.string(), arguments.dump()}, std::chrono::seconds(options.timeout), stop);
     if (!finished) return Error{options.in + ": " + finished.error().message};
     if (finished->code != 0) {
         const std::string& said = finished->err;
         return Error{fmt::format("{}: {}", options.in, said.substr(0, said.find_last_not_of(" \n") + 1))};
     }
+    return std::move(finished->out);
+}
 
-    // Check what came out, and only then write it.
+/// What was made, from what the script printed.
+void print_result(const std::string& printed, const Options& options) {
+    const auto result = nlohmann::json::parse(printed, nullptr, false);
+    if (!result.is_object()) return;
+    fmt::print("{}, {}, {:.4g} texels per metre", counted(result.value("objects", 0u), "object"),
+               counted(result.value("charts", 0u), "chart"), result.value("density", 0.0));
+    if (options.layout == "shared")
+        fmt::print(" on a page of {0} x {0}: bake with --size {0}x{0}", result.value("size", 0));
+    fmt::print("\n");
+}
+
+Status unwrap(const Options& options, const std::atomic<bool>& stop) {
+    // Look at options, input and tools before the work.
+    if (const auto status = check_options(options); !status) return status;
+    if (const auto status = check_file(options.out); !status) return status;
+    const auto input = read_gltf(options.in);
+    if (!input) return input.error();
+    const auto folder = script_folder();
+    if (!folder) return folder.error();
+    if (const auto status = check_tools(*folder, stop); !status) return status;
+
+    // Run the script on a file in passing; check what came out, and only then write it.
+    const auto passing = TemporaryFolder::make();
+    if (!passing) return passing.error();
+    const auto file = passing->path() / "unwrapped.glb";
+    const auto printed = run_script(options, *folder, file, stop);
+    if (!printed) return printed.error();
     if (const auto status = check_result(file, options); !status)
         return Error{options.in + ": " + status.error().message};
+    if (stop) return Error{"stopped"};
     const auto bytes = read_file(file, k_most_bytes);
     if (!bytes) return bytes.error();
     if (const auto status = write_file_atomically(options.out, *bytes); !status) return status;
-    const auto result = nlohmann::json::parse(finished->out, nullptr, false);
-    if (!result.is_object()) return Done{};
-    const auto size = result.value("size", 0);
-    fmt::print("{} objects, {} charts, {:.4g} texels per metre", result.value("objects", 0), result.value("charts", 0),
-               result.value("density", 0.0));
-    if (options.layout == "shared") fmt::print(" on a page of {0} x {0}: bake with --size {0}x{0}", size);
-    fmt::print("\n");
+    print_result(*printed, options);
     return Done{};
+}
+
+Status unwrap_verb(const Options& options) {
+    const StopOnInterrupt stop;
+    const Status status = unwrap(options, stop.flag());
+    if (!status && stop.flag()) StopOnInterrupt::end_program();
+    return status;
 }
 
 }  // namespace

@@ -19,6 +19,7 @@ struct Verb {
     Action action;
 };
 
+[[nodiscard]] Verb add_advise(CLI::App& app);
 [[nodiscard]] Verb add_bake(CLI::App& app);
 [[nodiscard]] Verb add_compare(CLI::App& app);
 [[nodiscard]] Verb add_convert(CLI::App& app);
@@ -33,7 +34,8 @@ struct Verb {
 [[nodiscard]] Verb add_unwrap(CLI::App& app);
 
 /// All of them, in the order in which help shows them.
-inline constexpr std::array k_verbs = {add_compare, add_bake, add_render,    add_merge,   add_scene, add_unwrap,
-                                       add_encode,  add_eval, add_reference, add_convert, add_list,  add_study};
+inline constexpr std::array k_verbs = {add_compare, add_advise, add_bake,   add_render, add_merge,
+                                       add_scene,   add_unwrap, add_encode, add_eval,   add_reference,
+                                       add_convert, add_list,   add_study};
 
 }  // namespace lobelia::cli

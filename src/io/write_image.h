@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "io/staged_file.h"
+#include "lobelia/colour.h"
 #include "lobelia/image.h"
 #include "lobelia/result.h"
 
@@ -49,8 +50,8 @@ struct Image8 {
     std::vector<std::uint8_t> rgb;
 };
 
-/// `image` times `exposure`, cut to [0, 1] (NaN to 0), through the sRGB curve and rounded.
-[[nodiscard]] Image8 to_srgb(const Image& image, float exposure = 1);
+/// `image` times `exposure`, through the tone curve (NaN and negative values to 0) and the sRGB curve, and rounded.
+[[nodiscard]] Image8 to_srgb(const Image& image, float exposure = 1, ToneCurve tone = ToneCurve::clamp);
 
 /// The bytes of a PNG file.
 [[nodiscard]] Result<std::string> encode_png(const Image8& picture);

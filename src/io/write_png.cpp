@@ -14,8 +14,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "io/image_checks.h"
 #include "io/write_file.h"
 #include "io/write_image.h"
@@ -25,10 +23,8 @@ namespace lobelia {
 
 namespace {
 
-std::uint8_t encoded(float linear) {
-    // Written so that NaN becomes black.
-    const float cut = linear > 0 ? std::min(linear, 1.0f) : 0.0f;
-    return static_cast<std::uint8_t>(std::lround(255 * srgb_from_linear(cut)));
+std::uint8_t encoded(float linear, ToneCurve tone) {
+    return static_cast<std::uint8_t>(std::lround(255 * srgb_from_linear(toned(tone, static_cast<double>(linear)))));
 }
 
 void append(void* target, void* data, int size) {
@@ -59,11 +55,12 @@ Result<std::string> encode(const PngSource& source) {
 
 }  // namespace
 
-Image8 to_srgb(const Image& image, float exposure) {
+Image8 to_srgb(const Image& image, float exposure, ToneCurve tone) {
     Image8 picture{image.width, image.height, {}};
     picture.rgb.reserve(3 * image.pixels.size());
     for (const Rgb& pixel : image.pixels)
-        for (const float component : {pixel.r, pixel.g, pixel.b}) picture.rgb.push_back(encoded(component * exposure));
+        for (const float component : {pixel.r, pixel.g, pixel.b})
+            picture.rgb.push_back(encoded(component * exposure, tone));
     return picture;
 }
 

@@ -1,6 +1,7 @@
 // Between CIE XYZ, linear Rec. 709 and the sRGB curve, and between lumens and watts.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "lobelia/math.h"
@@ -61,6 +62,24 @@ inline constexpr Chromaticity k_equal_energy{1.0 / 3, 1.0 / 3};
 /// Its inverse.
 [[nodiscard]] inline double linear_from_srgb(double encoded) {
     return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
+}
+
+/// How light brighter than white is fitted into pictures for people: cut off, x / (1 + x), or a film's curve (Narkowicz
+/// 2016, fits ACES). The pages have the same three.
+enum class ToneCurve { clamp, reinhard, filmic };
+
+/// The tone of a linear value, in [0, 1]; negative values and NaN become 0.
+[[nodiscard]] inline double toned(ToneCurve curve, double linear) {
+    const double x = linear > 0 ? std::min(linear, 1e9) : 0;
+    switch (curve) {
+        case ToneCurve::reinhard:
+            return x / (1 + x);
+        case ToneCurve::filmic:
+            return std::min(x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14), 1.0);
+        case ToneCurve::clamp:
+            break;
+    }
+    return std::min(x, 1.0);
 }
 
 }  // namespace lobelia

@@ -16,6 +16,7 @@ using Json = nlohmann::json;
 Json to_json(const BakeStatistics& s, bool has_codec) {
     Json json = {{"texels", s.texels},
                  {"invalid_texels", s.invalid_texels},
+                 {"buried_texels", s.buried_texels},
                  {"rays", s.rays},
                  {"seconds", s.seconds},
                  {"samples", s.samples},
@@ -85,6 +86,22 @@ Json preflight_of(const BakePage& bake, std::map<std::string, Picture>& pictures
     return {{"checks", std::move(checks)}, {"pictures", std::move(shown)}, {"density", bake.density}};
 }
 
+Json probes_of(const ProbeView& probes, std::map<std::string, Picture>& pictures) {
+    Json plans = Json::array();
+    for (std::size_t i = 0; i < probes.plans.size(); ++i) {
+        const ProbePlan& plan = probes.plans[i];
+        const std::string name = fmt::format("probes {}", i), marks = fmt::format("probes {} marks", i);
+        pictures[name] = encode(plan.image);
+        pictures[marks] = encode_picture(plan.marks, plan.image.width, plan.image.height);
+        plans.push_back({{"height", plan.height}, {"count", plan.count}, {"name", name}, {"marks", marks}});
+    }
+    return {{"codec", probes.codec},
+            {"count", probes.count},
+            {"invalid", probes.invalid},
+            {"heights", probes.heights},
+            {"plans", std::move(plans)}};
+}
+
 /// Mean luminance of E over the texels that were baked.
 double mean_irradiance(const BakePage& bake) {
     double sum = 0, count = 0;
@@ -120,6 +137,7 @@ std::string bake_html(const BakePage& bake, const BakePageOptions& options) {
                  {"object_of_chart", bake.object_of_chart},
                  {"objects", std::move(objects)},
                  {"preflight", preflight_of(bake, pictures)}};
+    if (bake.probes) data["probes"] = probes_of(*bake.probes, pictures);
     if (bake.statistics) data["statistics"] = to_json(*bake.statistics, has_codec);
 
     const std::string text = script_safe(data);

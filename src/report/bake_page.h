@@ -10,6 +10,7 @@
 #include "baker/output/bake_folder.h"
 #include "baker/render/render.h"
 #include "lobelia/image.h"
+#include "report/bake_probes.h"
 
 namespace lobelia {
 
@@ -53,6 +54,7 @@ struct BakePage {
     std::vector<std::vector<Rgb>> codec_irradiance;  ///< of each page, as page_irradiance gives it
     std::vector<std::uint32_t> object_of_chart;      ///< as objects_of_charts gives it
     std::vector<ObjectFigures> objects;              ///< in the scene's order, as object_figures gives them
+    std::optional<ProbeView> probes;
     std::vector<PreflightCheck> checks;
     std::vector<PreflightPicture> preflight_pictures;
     std::vector<std::pair<double, double>> density;  ///< texels per metre, from so many on: share of the area

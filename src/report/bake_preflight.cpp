@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "io/counted.h"
 #include "report/bake_page.h"
 
 namespace lobelia {

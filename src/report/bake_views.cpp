@@ -18,6 +18,8 @@ BakePage bake_page_of(const Scene& scene, const Baker& baker, const Bake& bake) 
             page_irradiance(bake.pages[p], bake.layout(), bake.normals[p], frame, baker.codec()->evaluator()));
     page.object_of_chart = objects_of_charts(baker.atlas());
     page.objects = object_figures(scene, page.light, page.object_of_chart, page.codec_irradiance);
+    if (bake.probes)
+        if (const auto codec = make_codec(bake.probes->codec)) page.probes = view_probes(*bake.probes, *codec);
     return page;
 }
 

@@ -24,6 +24,9 @@ A **linear** basis is a sum of functions. A **fitted** one is found from the coe
 accumulated for it, and read in a way of its own. A coefficient is three floats: a colour, or where it says so a vector.
 Bytes are those of float32.
 
+The pictures are of ennis.hdr (`docs/make-pictures`), each basis with the encoder `least-squares`, or `moments` where it
+is not listed with that; bases over the hemisphere see the half above z = 0 only.
+
 )";
 
 constexpr const char* k_patterns_head = R"(
@@ -102,11 +105,28 @@ std::string evaluators(const std::vector<BasisPtr>& family) {
     return text;
 }
 
+/// A table of the pictures that docs/make-pictures makes.
+std::string pictures(const std::vector<BasisPtr>& family) {
+    std::string head = "| | reference |", rule = "|---|---|", radiance = "| radiance |", irradiance = "| irradiance |";
+    const auto add = [&](const std::string& name) {
+        const std::string file = "(images/bases/" + name + "-";
+        radiance += " ![" + name + "]" + file + "radiance.png) |";
+        irradiance += " ![" + name + "]" + file + "irradiance.png) |";
+    };
+    add("reference");
+    for (const BasisPtr& basis : family) {
+        head += " `" + basis->name() + "` |";
+        rule += "---|";
+        add(basis->name());
+    }
+    return head + "\n" + rule + "\n" + radiance + "\n" + irradiance + "\n\n";
+}
+
 std::string section(const std::vector<BasisPtr>& family) {
     const Basis& first = *family.front();
     const BasisNotes notes = first.notes();
     std::string text = "\n## " + notes.family + "\n\n" + wrapped(members(family) + ".");
-    text += "\n```\n" + wrapped(notes.formula) + "```\n\n";
+    text += "\n```\n" + wrapped(notes.formula) + "```\n\n" + pictures(family);
     text += wrapped("**Good at** " + notes.good_at + ".") + "\n";
     text += wrapped("**Bad at** " + notes.bad_at + ".") + "\n";
     const auto listed = first.listed_encoders();

@@ -150,7 +150,9 @@ Result<Document> open_document(Bytes bytes, std::string_view name, const Resourc
     Document document{std::string(name), {}, {}, {}, Resources(resources, options.most_bytes), options, {}};
     if (const Status s = read_buffers(document, *root, container->binary); !s) return s.error();
     if (const Status s = read_image_sources(document, *root); !s) return s.error();
+    const bool moves = root->contains("animations") && !(*root)["animations"].empty();
     if (const Status s = parse_model(document, *std::move(root)); !s) return s.error();
+    if (moves) document.warn("animations", "not read; everything stands where its node says");
     for (const std::string& extension : document.model.extensionsUsed)
         if (const std::string_view what = unread_extension(extension); !what.empty())
             document.warn("extensionsUsed", fmt::format("{}: {}", extension, what));

@@ -35,17 +35,16 @@ int depth_of(std::string_view text) {
     return deepest;
 }
 
-constexpr std::array<std::string_view, 22> k_read{
+constexpr std::array<std::string_view, 21> k_read{
     "KHR_lights_punctual", "KHR_materials_emissive_strength", "KHR_materials_ior", "KHR_materials_specular",
     "KHR_materials_unlit", "KHR_mesh_quantization", "KHR_texture_transform", "EXT_mesh_gpu_instancing",
     // These change nothing that is baked, or only add a choice.
-    "KHR_materials_variants", "KHR_xmp", "KHR_xmp_json_ld", "KHR_node_visibility", "KHR_animation_pointer", "MSFT_lod",
+    "KHR_materials_variants", "KHR_xmp", "KHR_xmp_json_ld", "KHR_animation_pointer", "MSFT_lod",
     "MSFT_packing_occlusionRoughnessMetallic", "MSFT_packing_normalRoughnessMetallic", "EXT_mesh_features",
     "EXT_structural_metadata", "CESIUM_primitive_outline", "FB_geometry_metadata", "EXT_texture_webp",
     "MSFT_texture_dds"};
 /// Of those: fallbacks exist where they are not required.
-constexpr std::array<std::string_view, 3> k_not_if_required{"EXT_texture_webp", "MSFT_texture_dds",
-                                                            "KHR_node_visibility"};
+constexpr std::array<std::string_view, 2> k_not_if_required{"EXT_texture_webp", "MSFT_texture_dds"};
 
 bool contains(auto& names, std::string_view name) { return std::find(names.begin(), names.end(), name) != names.end(); }
 
@@ -158,6 +157,7 @@ std::string_view unread_extension(std::string_view extension) {
     if (extension == "KHR_draco_mesh_compression" || extension == "EXT_meshopt_compression" ||
         extension == "KHR_meshopt_compression")
         return "compressed data is not read, only its fallback";
+    if (extension == "KHR_node_visibility") return "not read; hidden nodes are there, too";
     if (contains(k_read, extension)) return "";
     return "not read";
 }

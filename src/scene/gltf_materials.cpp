@@ -164,6 +164,27 @@ Result<Draft> read_draft(Document& document, const tinygltf::Material& source, c
     return draft;
 }
 
+/// Says how many materials have a map that is left out, which is the first, and what that means.
+void warn_of_maps(Document& document, int index_of(const tinygltf::Material&), std::string_view maps,
+                  std::string_view consequence) {
+    std::size_t count = 0, first = 0;
+    const auto& materials = document.model.materials;
+    for (std::size_t i = 0; i < materials.size(); ++i)
+        if (index_of(materials[i]) >= 0 && count++ == 0) first = i;
+    if (count == 0) return;
+    document.warn("materials", fmt::format("{} with {}, the first materials[{}] \"{}\": {}", count, maps, first,
+                                           short_name(materials[first].name), consequence));
+}
+
+void warn_of_unread_maps(Document& document) {
+    warn_of_maps(
+        document, [](const tinygltf::Material& m) { return m.normalTexture.index; }, "normal maps",
+        "not read; surfaces have the normals of their vertices");
+    warn_of_maps(
+        document, [](const tinygltf::Material& m) { return m.occlusionTexture.index; }, "occlusion maps",
+        "not read; the paths find what hides what");
+}
+
 /// Sets 0 and 1 keep their numbers; where others are used, the lowest two become 0 and 1.
 UvSets choose_sets(Document& document, const std::set<std::size_t>& used) {
     UvSets sets;
@@ -182,6 +203,18 @@ UvSets choose_sets(Document& document, const std::set<std::size_t>& used) {
     return sets;
 }
 
+/// A reference by the scene's numbers; nothing where its texture or uv set was left out.
+std::optional<TextureUse> numbered(const std::optional<Reference>& reference,
+                                   const std::vector<std::optional<std::size_t>>& of_texture, const UvSets& uv_sets) {
+    if (!reference || !of_texture[reference->texture]) return std::nullopt;
+    const auto set = std::find(uv_sets.set.begin(), uv_sets.set.end(), reference->tex_coord);
+    if (set == uv_sets.set.end()) return std::nullopt;
+    TextureUse use = reference->use;
+    use.texture = *of_texture[reference->texture];
+    use.uv_set = static_cast<std::size_t>(set - uv_sets.set.begin());
+    return use;
+}
+
 }  // namespace
 
 Result<UvSets> read_materials(Document& document, Scene& scene) {
@@ -192,6 +225,8 @@ Result<UvSets> read_materials(Document& document, Scene& scene) {
         if (!draft) return draft.error();
         drafts.push_back(*std::move(draft));
     }
+
+    warn_of_unread_maps(document);
 
     // Decode the textures that are used, and choose the uv sets.
     std::vector<bool> used(document.model.textures.size());
@@ -208,19 +243,9 @@ Result<UvSets> read_materials(Document& document, Scene& scene) {
 
     // Number them in the materials.
     for (Draft& draft : drafts) {
-        const auto resolve = [&](const std::optional<Reference>& reference) {
-            std::optional<TextureUse> use;
-            if (!reference || !(*of_texture)[reference->texture]) return use;
-            const auto set = std::find(uv_sets.set.begin(), uv_sets.set.end(), reference->tex_coord);
-            if (set == uv_sets.set.end()) return use;
-            use = reference->use;
-            use->texture = *(*of_texture)[reference->texture];
-            use->uv_set = static_cast<std::size_t>(set - uv_sets.set.begin());
-            return use;
-        };
-        draft.material.base_color_texture = resolve(draft.base_color);
-        draft.material.metallic_roughness_texture = resolve(draft.metallic_roughness);
-        draft.material.emissive_texture = resolve(draft.emissive);
+        draft.material.base_color_texture = numbered(draft.base_color, *of_texture, uv_sets);
+        draft.material.metallic_roughness_texture = numbered(draft.metallic_roughness, *of_texture, uv_sets);
+        draft.material.emissive_texture = numbered(draft.emissive, *of_texture, uv_sets);
         scene.materials.push_back(std::move(draft.material));
     }
     return uv_sets;

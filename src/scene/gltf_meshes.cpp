@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 
+#include "scene/gltf_json.h"
 #include "scene/gltf_normals.h"
 #include "scene/gltf_triangles.h"
 
@@ -69,15 +70,19 @@ class MeshReader {
             const auto found = primitive.attributes.find(name);
             return found == primitive.attributes.end() ? -1 : found->second;
         };
-        Attributes attributes{find("POSITION"),
-                              find("NORMAL"),
-                              find("COLOR_0"),
-                              find(fmt::format("TEXCOORD_{}", document_.options.uv_set)),
-                              {-1, -1}};
+        Attributes attributes{
+            find("POSITION"),
+            find("NORMAL"),
+            find("COLOR_0"),
+            fills_gap(document_.options.uv_set) ? -1 : find(fmt::format("TEXCOORD_{}", document_.options.uv_set)),
+            {-1, -1}};
         for (std::size_t i = 0; i < 2; ++i)
             if (context_.uv_sets.set[i]) attributes.uv[i] = find(fmt::format("TEXCOORD_{}", *context_.uv_sets.set[i]));
         return attributes;
     }
+
+    /// Whether a set is one that our own writer had to put there.
+    [[nodiscard]] bool fills_gap(std::size_t set) const { return set == 1 && source_.extras.Has(k_no_lightmap); }
 
     /// Compressed primitives may bring plain data, too, to fall back on.
     [[nodiscard]] bool has_position_data(const tinygltf::Primitive& primitive) const {

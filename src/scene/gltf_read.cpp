@@ -3,6 +3,7 @@
 
 #include <cassert>
 
+#include "io/counted.h"
 #include "io/read_file.h"
 #include "scene/check_scene.h"
 #include "scene/gltf_lights.h"
@@ -72,13 +73,13 @@ Status add_objects(Document& document, const PlacedNode& placed, std::size_t mes
 
 void warn_of_totals(Document& document, const MeshTotals& totals) {
     if (totals.no_area > 0)
-        document.warn("meshes",
-                      fmt::format("{} triangles have no area, the first is {}", totals.no_area, totals.first_no_area));
+        document.warn("meshes", fmt::format("{} without area, the first is {}", counted(totals.no_area, "triangle"),
+                                            totals.first_no_area));
     if (totals.repaired_normals > 0)
-        document.warn("meshes", fmt::format("{} normals are no directions; made from the triangles around them",
-                                            totals.repaired_normals));
+        document.warn("meshes", counted(totals.repaired_normals, "normal") +
+                                    " without a direction; made from the triangles around them");
     if (document.more_warnings > 0)
-        document.warnings.push_back(fmt::format("and {} more warnings", document.more_warnings));
+        document.warnings.push_back("and " + counted(document.more_warnings, "more warning"));
 }
 
 Result<LoadedScene> read(Document& document) {

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "io/write_file.h"
+#include "scene/gltf_json.h"
 #include "scene/gltf_write_parts.h"
 
 namespace lobelia {
@@ -93,25 +94,38 @@ class Writer {
         const bool own_uv = !options_.lightmap_uv.empty() && !options_.lightmap_uv[i].empty();
         if (const auto found = meshes_.find(m); found != meshes_.end() && !own_uv) return found->second;
         MeshAccessors mesh = accessors_of(m);
-        const auto uv = [&](const std::vector<Vec2>& values) {
+        const auto add_lightmap = [&](const std::vector<Vec2>& values) {
             assert(values.size() == scene_.meshes[m].positions.size());
             mesh.attributes["TEXCOORD_1"] = builder_.add_vectors(values);
-            // Sets are numbered without gaps.
-            if (!mesh.attributes.contains("TEXCOORD_0")) mesh.attributes["TEXCOORD_0"] = mesh.attributes["TEXCOORD_1"];
         };
         if (own_uv) {
-            uv(options_.lightmap_uv[i]);
+            add_lightmap(options_.lightmap_uv[i]);
         } else if (!scene_.meshes[m].lightmap_uv.empty()) {
-            uv(scene_.meshes[m].lightmap_uv);
+            add_lightmap(scene_.meshes[m].lightmap_uv);
         }
+        json out = json::object();
+        if (fill_gaps(mesh.attributes)) out["extras"][k_no_lightmap] = true;
         json primitives;
         for (const auto& [material, indices] : mesh.primitives)
             primitives.push_back({{"attributes", mesh.attributes}, {"indices", indices}, {"material", material}});
-        json out = {{"primitives", std::move(primitives)}};
+        out["primitives"] = std::move(primitives);
         if (!scene_.meshes[m].name.empty()) out["name"] = scene_.meshes[m].name;
         const std::size_t index = builder_.add("meshes", std::move(out));
         if (!own_uv) meshes_[m] = index;
         return index;
+    }
+
+    /// glTF numbers sets of texture coordinates without gaps: sets below others that nobody reads become copies of
+    /// those. Whether the lightmap's is one of them.
+    static bool fill_gaps(json& attributes) {
+        bool fills_lightmap = false;
+        const std::array<std::string, 3> names{"TEXCOORD_2", "TEXCOORD_1", "TEXCOORD_0"};
+        for (std::size_t k = 1; k < names.size(); ++k) {
+            if (attributes.contains(names[k]) || !attributes.contains(names[k - 1])) continue;
+            attributes[names[k]] = attributes[names[k - 1]];
+            fills_lightmap |= k == 1;
+        }
+        return fills_lightmap;
     }
 
     /// What all objects of a mesh share; written once.

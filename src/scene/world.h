@@ -18,8 +18,11 @@ struct World {
     std::vector<std::uint32_t> object;          ///< of each triangle
     std::vector<std::uint32_t> first_triangle;  ///< of each object, and the number of all triangles at the end
     std::vector<std::uint8_t> has_lightmap_uv;  ///< of each object
+    std::vector<std::string> names;             ///< of each object, for messages; may be empty
     Vec3 lowest, highest;                       ///< corners of the box around everything; equal where there is nothing
 
+    /// "'wall'", or "object 3" where it has no name.
+    [[nodiscard]] std::string name_of(std::size_t of_object) const;
     /// Unit normal of triangle t by its winding, (0, 0, 0) where it has no area.
     [[nodiscard]] Vec3 face_normal(std::size_t t) const;
     /// Half the length of the box's diagonal [m].

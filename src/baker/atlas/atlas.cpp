@@ -137,8 +137,8 @@ Status Atlas::fill_tiles() {
         });
         if (tests > k_most_tests || listed > k_most_listed)
             return Error{
-                fmt::format("the lightmap UVs overlap many times over (up to object {}): `lobelia unwrap` makes others",
-                            world_->object[t])};
+                fmt::format("the lightmap UVs overlap many times over (up to {}): `lobelia unwrap` makes others",
+                            world_->name_of(world_->object[t]))};
     }
 
     // List the triangles tile by tile.

@@ -123,10 +123,10 @@ Result<AtlasLayout> packed_layout(const World& world, const AtlasOptions& option
     for (const Extent& e : extents)
         if (const double scale = scale_at(e, density); !fits(e, scale, options))
             return Error{fmt::format(
-                "object {} needs {:.0f} x {:.0f} texels at {:.4g} texels per metre, but pages have {} x {}: ask for "
+                "{} needs {:.0f} x {:.0f} texels at {:.4g} texels per metre, but pages have {} x {}: ask for "
                 "larger pages or fewer texels per metre",
-                e.object, texels_for(e.x1 - e.x0, scale), texels_for(e.y1 - e.y0, scale), density, options.width,
-                options.height)};
+                world.name_of(e.object), texels_for(e.x1 - e.x0, scale), texels_for(e.y1 - e.y0, scale), density,
+                options.width, options.height)};
     return packed_at(world, extents, density, options);
 }
 

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <span>
 
 #include "baker/atlas/preflight.h"
+#include "io/counted.h"
 #include "lobelia/colour.h"
 
 namespace lobelia {
@@ -16,27 +18,35 @@ std::string name_of(const Scene& scene, std::size_t object) {
     return named ? fmt::format("'{}'", scene.objects[object].name) : fmt::format("object {}", object);
 }
 
-/// "3,000 triangles (2,000 of 'wall', 1,000 of 'floor')", or nothing where there are none.
-std::string listed(const Preflight& preflight, const Scene& scene, std::size_t Preflight::OfObject::*count,
-                   const char* what) {
-    std::vector<std::size_t> objects;
+/// What is counted, as "triangle" and " without area on the page".
+struct Subject {
+    std::size_t Preflight::OfObject::*count;
+    const char* noun;
+    const char* rest;
+};
+
+/// At most `most` of the names, "and 5 more".
+std::string some_of(std::span<const std::string> names, std::size_t most = 4) {
+    std::string result;
+    for (std::size_t i = 0; i < std::min(names.size(), most); ++i) result += (i > 0 ? ", " : "") + names[i];
+    if (names.size() > most) result += fmt::format(" and {} more", names.size() - most);
+    return result;
+}
+
+/// "3000 triangles without area (2000 of 'wall', 1000 of 'floor')", or nothing where there are none.
+std::string listed(const Preflight& preflight, const Scene& scene, const Subject& subject) {
+    std::vector<std::pair<std::size_t, std::size_t>> objects;
     std::size_t all = 0;
     for (std::size_t i = 0; i < preflight.objects.size(); ++i)
-        if (preflight.objects[i].*count > 0) {
-            objects.push_back(i);
-            all += preflight.objects[i].*count;
+        if (const std::size_t count = preflight.objects[i].*subject.count; count > 0) {
+            objects.emplace_back(count, i);
+            all += count;
         }
     if (all == 0) return {};
-    std::stable_sort(objects.begin(), objects.end(), [&](std::size_t a, std::size_t b) {
-        return preflight.objects[a].*count > preflight.objects[b].*count;
-    });
-    constexpr std::size_t k_most = 4;
-    std::string names;
-    for (std::size_t i = 0; i < std::min(objects.size(), k_most); ++i)
-        names += fmt::format("{}{} of {}", i > 0 ? ", " : "", preflight.objects[objects[i]].*count,
-                             name_of(scene, objects[i]));
-    if (objects.size() > k_most) names += fmt::format(" and of {} more", objects.size() - k_most);
-    return fmt::format("{} {} ({})", all, what, names);
+    std::stable_sort(objects.begin(), objects.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+    std::vector<std::string> names;
+    for (const auto& [count, object] : objects) names.push_back(fmt::format("{} of {}", count, name_of(scene, object)));
+    return fmt::format("{}{} ({})", counted(all, subject.noun), subject.rest, some_of(names));
 }
 
 std::string bytes(std::size_t count) {
@@ -81,42 +91,46 @@ constexpr Pixel k_free{24, 24, 28}, k_tight{255, 150, 0}, k_overlap{230, 20, 20}
 
 std::vector<std::string> warnings(const Preflight& p, const Scene& scene) {
     std::vector<std::string> result;
-    const auto warn = [&](std::size_t Preflight::OfObject::*count, const char* what, const char* consequence) {
-        if (const std::string list = listed(p, scene, count, what); !list.empty())
+    const auto warn = [&](const Subject& subject, std::string_view consequence) {
+        if (const std::string list = listed(p, scene, subject); !list.empty())
             result.push_back(fmt::format("{}: {}", list, consequence));
     };
-    for (std::size_t i = 0; i < std::min<std::size_t>(p.overlaps.size(), 8); ++i) {
+    constexpr std::size_t k_most_overlaps = 8;
+    for (std::size_t i = 0; i < std::min(p.overlaps.size(), k_most_overlaps); ++i) {
         const auto& [object, other, texels] = p.overlaps[i];
+        const std::string whose = object == other
+                                      ? name_of(scene, object) + " overlap each other"
+                                      : name_of(scene, object) + " and " + name_of(scene, other) + " overlap";
         result.push_back(
-            object == other
-                ? fmt::format("lightmap UVs of {} overlap each other on {} texels: their light will be mixed up",
-                              name_of(scene, object), texels)
-                : fmt::format("lightmap UVs of {} and {} overlap on {} texels: their light will be mixed up",
-                              name_of(scene, object), name_of(scene, other), texels));
+            fmt::format("lightmap UVs of {} on {}: their light will be mixed up", whose, counted(texels, "texel")));
     }
-    if (p.overlaps.size() > 8) result.push_back(fmt::format("{} more pairs of objects overlap", p.overlaps.size() - 8));
-    warn(&Preflight::OfObject::outside_triangles, "triangles with lightmap UVs out of [0, 1]",
-         "what lies outside is not baked");
+    if (p.overlaps.size() > k_most_overlaps)
+        result.push_back("overlaps of " + counted(p.overlaps.size() - k_most_overlaps, "more pair") + " of objects");
+    using Of = Preflight::OfObject;
+    warn({&Of::outside_triangles, "triangle", " with lightmap UVs out of [0, 1]"}, "what lies outside is not baked");
     if (p.least_padding)
-        warn(&Preflight::OfObject::tight_texels, "texels too near to another chart",
-             fmt::format("{} texels between charts where {} are needed; light will bleed", *p.least_padding, p.padding)
-                 .c_str());
-    warn(&Preflight::OfObject::unmapped_triangles, "triangles without area on the page", "they get no texels");
-    warn(&Preflight::OfObject::degenerate_triangles, "degenerate triangles", "they have no area and no front");
-    warn(&Preflight::OfObject::non_manifold_edges, "edges of three triangles and more",
+        warn({&Of::tight_texels, "texel", " too near to another chart"},
+             fmt::format("{} between charts where {} are needed; light will bleed", counted(*p.least_padding, "texel"),
+                         p.padding));
+    warn({&Of::unmapped_triangles, "triangle", " without area on the page"}, "nothing is baked there");
+    warn({&Of::degenerate_triangles, "degenerate triangle", ""}, "without area there is no front");
+    warn({&Of::non_manifold_edges, "edge", " of three triangles and more"},
          "which of their sides is inside cannot be told");
+
+    std::vector<std::string> bare;
     for (std::size_t i = 0; i < p.objects.size(); ++i)
-        if (!p.objects[i].has_uv)
-            result.push_back(
-                fmt::format("{} has no lightmap UVs and is not baked; `lobelia unwrap` makes some", name_of(scene, i)));
+        if (!p.objects[i].has_uv) bare.push_back(name_of(scene, i));
+    if (!bare.empty())
+        result.push_back(fmt::format("{} without lightmap UVs ({}): lit, but not baked; `lobelia unwrap` makes some",
+                                     counted(bare.size(), "object"), some_of(bare)));
     return result;
 }
 
 std::string to_text(const Preflight& p, const Scene& scene) {
     const double all = static_cast<double>(p.width) * static_cast<double>(p.height) * static_cast<double>(p.pages);
-    std::string text = fmt::format(
-        "{} {} of {} x {} texels, {} covered ({:.1f} %), {} {}\n", p.pages, p.pages == 1 ? "page" : "pages", p.width,
-        p.height, p.texels, 100 * static_cast<double>(p.texels) / all, p.charts, p.charts == 1 ? "chart" : "charts");
+    std::string text =
+        fmt::format("{} of {} x {} texels, {} covered ({:.1f} %), {}\n", counted(p.pages, "page"), p.width, p.height,
+                    p.texels, 100 * static_cast<double>(p.texels) / all, counted(p.charts, "chart"));
     if (!p.density.share.empty())
         text += fmt::format("texels per metre: {:.4g} to {:.4g}, median {:.4g} (share of the area)\n{}",
                             p.density.least, p.density.most, p.density.median, histogram(p.density));

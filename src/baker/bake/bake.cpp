@@ -32,6 +32,7 @@ Site to_site(const Texel& texel, const CoveredTexel& at, const Atlas& atlas) {
     site.positions = texel.positions;
     site.position_count = texel.position_count;
     site.normal = texel.normal;
+    site.buried = texel.buried;
     site.key = static_cast<std::uint32_t>((at.page * atlas.height() + at.y) * atlas.width() + at.x);
     return site;
 }
@@ -84,6 +85,12 @@ struct Baker::Implementation {
     };
 
     [[nodiscard]] const Encoder* encoder() const { return codec ? codec->encoder().get() : nullptr; }
+    /// Whose coefficients the pages hold.
+    [[nodiscard]] const Encoder* page_encoder() const {
+        if (!codec) return nullptr;
+        const FittedBasis* fitted = codec->basis().fitted();
+        return fitted != nullptr && fitted->is_continuous() ? &encoder()->accumulating() : encoder();
+    }
     [[nodiscard]] bool in_tangent_frame() const {
         return !codec || codec->basis().domain() == Domain::hemisphere || options.frame == Frame::tangent;
     }
@@ -97,6 +104,10 @@ struct Baker::Implementation {
         return result;
     }
 
+    [[nodiscard]] PageLayout page_layout() const {
+        return {page_encoder() == nullptr ? 0 : page_encoder()->basis().size()};
+    }
+    [[nodiscard]] Status lay_out();
     [[nodiscard]] std::vector<Site> make_sites(std::span<const std::uint32_t> texels) const;
     [[nodiscard]] Result<RegionStates> states_of(std::size_t region, std::span<const std::uint32_t> texels,
                                                  Start start);
@@ -239,8 +250,38 @@ Status Baker::Implementation::run_region(std::size_t region, Start start, Run& r
     statistics.seconds += states.header.seconds;
     statistics.samples =
         std::max(statistics.samples, (states.header.end_pass - plan.first_pass) * options.samples_per_pass);
-    const SolveOptions solve{codec ? &*codec : nullptr, options.samples_per_pass, in_tangent_frame()};
+    const SolveOptions solve{codec ? &*codec : nullptr, page_encoder(), options.samples_per_pass, in_tangent_frame()};
     solve_onto(pages, map, texels, states.states(), *layout, solve, sites, atlas, totals);
+    return Done{};
+}
+
+/// Atlas, texels and plan.
+Status Baker::Implementation::lay_out() {
+    world = make_world(*scene);
+    auto made = Atlas::make(world, options.atlas);
+    if (!made) return made.error();
+    atlas = std::move(*made);
+    map = map_texels(atlas);
+    if (options.only_object) {
+        const auto found = std::find(world.names.begin(), world.names.end(), *options.only_object);
+        if (found == world.names.end())
+            return Error{"no object is called \"" + *options.only_object + "\"" +
+                         nearest_names(*options.only_object, world.names)};
+        map = only_of(map, world, static_cast<std::uint32_t>(found - world.names.begin()));
+    }
+    if (map.texels.empty()) return Error{"no texel is covered by any triangle; are the lightmap UVs degenerate?"};
+
+    // Memory: pages and the scene are always there, states and sites as far as they fit.
+    layout.emplace(encoder());
+    const std::size_t texels = atlas.width() * atlas.height() * atlas.pages();
+    // The scene and the world's vertices, Embree's tree, shading data: about 500 as measured on a million triangles.
+    constexpr std::size_t bytes_per_triangle = 600, bytes_of_program = 64 << 20;
+    const std::size_t always = texels * (page_layout().channels() * sizeof(float) + 2 * sizeof(std::uint32_t)) +
+                               map.texels.size() * (sizeof(CoveredTexel) + sizeof(std::uint32_t)) +
+                               world.triangles.size() * bytes_per_triangle + bytes_of_program;
+    auto planned = make_plan(map, options, layout->bytes() + sizeof(Site) + sizeof(std::uint32_t), always);
+    if (!planned) return planned.error();
+    plan = std::move(*planned);
     return Done{};
 }
 
@@ -264,34 +305,7 @@ Result<std::unique_ptr<Baker>> Baker::make(const Scene& scene, const BakeOptions
     if (options.shard.by == Shard::By::samples && options.target_error)
         return Error{"--target-error does not go with shards of samples: no shard knows the others' errors"};
 
-    self.world = make_world(scene);
-    auto atlas = Atlas::make(self.world, options.atlas);
-    if (!atlas) return atlas.error();
-    self.atlas = std::move(*atlas);
-    self.map = map_texels(self.atlas);
-    if (options.only_object) {
-        std::vector<std::string> names;
-        for (const Object& object : scene.objects) names.push_back(object.name);
-        const auto found = std::find(names.begin(), names.end(), *options.only_object);
-        if (found == names.end())
-            return Error{"no object is called \"" + *options.only_object + "\"" +
-                         nearest_names(*options.only_object, names)};
-        self.map = only_of(self.map, self.world, static_cast<std::uint32_t>(found - names.begin()));
-    }
-    if (self.map.texels.empty()) return Error{"no texel is covered by any triangle; are the lightmap UVs degenerate?"};
-
-    // Memory: pages and the scene are always there, states and sites as far as they fit.
-    self.layout.emplace(self.encoder());
-    const std::size_t texels = self.atlas.width() * self.atlas.height() * self.atlas.pages();
-    // The scene and the world's vertices, Embree's tree, shading data: about 500 as measured on a million triangles.
-    constexpr std::size_t bytes_per_triangle = 600, bytes_of_program = 64 << 20;
-    const std::size_t always = texels * (bake->layout().channels() * sizeof(float) + 2 * sizeof(std::uint32_t)) +
-                               self.map.texels.size() * (sizeof(CoveredTexel) + sizeof(std::uint32_t)) +
-                               self.world.triangles.size() * bytes_per_triangle + bytes_of_program;
-    auto plan = make_plan(self.map, options, self.layout->bytes() + sizeof(Site) + sizeof(std::uint32_t), always);
-    if (!plan) return plan.error();
-    self.plan = std::move(*plan);
-
+    if (auto status = self.lay_out(); !status) return status.error();
     self.hash = state_hash(scene, options);
     self.tracer = std::make_unique<PathTracer>(scene, self.world, options.paths);
     return bake;
@@ -326,7 +340,11 @@ const SiteLayout& Baker::sites() const { return *implementation_->layout; }
 std::uint64_t Baker::hash() const { return implementation_->hash; }
 const PathTracer& Baker::tracer() const { return *implementation_->tracer; }
 const Codec* Baker::codec() const { return implementation_->codec ? &*implementation_->codec : nullptr; }
-PageLayout Baker::layout() const { return {codec() == nullptr ? 0 : codec()->basis().size()}; }
+PageLayout Baker::layout() const { return implementation_->page_layout(); }
+const Basis* Baker::page_basis() const {
+    const Encoder* encoder = implementation_->page_encoder();
+    return encoder == nullptr ? nullptr : &encoder->basis();
+}
 bool Baker::in_tangent_frame() const { return implementation_->in_tangent_frame(); }
 std::vector<Page>& Baker::pages() { return implementation_->pages; }
 const BakeStatistics& Baker::statistics() const { return implementation_->statistics; }

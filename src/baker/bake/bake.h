@@ -48,11 +48,13 @@ struct BakeOptions {
 struct BakeStatistics {
     std::size_t texels = 0;          ///< covered
     std::size_t invalid_texels = 0;  ///< validity below one half
+    std::size_t buried_texels = 0;   ///< of them, those that lie under other surfaces, where no light can come
     std::uint64_t rays = 0;
     double seconds = 0;         ///< tracing and encoding, over all sessions
     std::uint32_t samples = 0;  ///< of each texel, at most
     double mean_error = 0;  ///< RMS over texels of the standard error of E's luminance, over the mean of E's luminance
-    double back_face_share = 0;  ///< of all paths, those that met a back face first: leaks
+    double back_face_share =
+        0;                      ///< of the paths of texels that are not buried, those that met a back face first: leaks
     double negative_share = 0;  ///< of the irradiances that the coefficients give over the hemisphere about each normal
     double ringing = 0;         ///< mean of their negative parts over their mean
     double codec_error = 0;     ///< RMS over texels of E by the codec minus E by the paths, over the mean of E
@@ -87,6 +89,11 @@ class Baker {
     [[nodiscard]] const TexelMap& texels() const;
     [[nodiscard]] const PathTracer& tracer() const;
     [[nodiscard]] const Codec* codec() const;  ///< null for plain irradiance
+    /// Whose coefficients pages() hold; null for plain irradiance. The codec's basis, but where that is fitted from
+    /// another: what it is fitted from, for the finishing steps ask for what is linear in the light, and fit_pages() is
+    /// the last of them. A basis whose fits are not continuous is fitted at once: there is no finishing it, and what it
+    /// accumulates is large.
+    [[nodiscard]] const Basis* page_basis() const;
     [[nodiscard]] PageLayout layout() const;
     /// Whether directions of the coefficients are in the tangent frame of each texel.
     [[nodiscard]] bool in_tangent_frame() const;

@@ -22,7 +22,9 @@ using Place = std::array<std::int32_t, 3>;
 
 /// Probes see back faces in more than this share of directions only from inside something.
 constexpr float k_most_back_faces = 0.25f;
-constexpr std::size_t k_feelers = 64;
+/// From outside a room, across the corner of three walls, an eighth of all directions meets backs.
+constexpr float k_back_faces_to_move = 1.0f / 16;
+constexpr std::size_t k_feelers = 256;
 constexpr std::uint32_t k_samples_per_pass = 64;
 
 std::array<Vec3, 2> box_of(const ProbeOptions& options, const World& world) {
@@ -122,6 +124,8 @@ class ProbeBaker {
     }
 
     [[nodiscard]] Status bake(std::span<const Place> wanted, int level, const BakeProgressSink& progress);
+    void bake_one(std::size_t probe, SiteWorker& worker);
+    [[nodiscard]] std::optional<Vec3> way_out(Vec3 position, float reach) const;
     [[nodiscard]] Vec3 pushed_out(Vec3 position) const;
     [[nodiscard]] std::array<Rgb, 6> irradiances(std::uint32_t probe) const;
     [[nodiscard]] double error_in(Place cell, std::int32_t size) const;
@@ -153,11 +157,11 @@ class ProbeBaker {
     std::vector<Cell> kept_;
 };
 
-Vec3 ProbeBaker::pushed_out(Vec3 position) const {
-    // Feel around for surfaces; a wall that shows its back is one to pass.
+/// The way through the nearest wall that shows its back, and a little beyond, so that it does not fill half of the
+/// view. Nothing where too few do, or it would be farther than `reach`.
+std::optional<Vec3> ProbeBaker::way_out(Vec3 position, float reach) const {
     std::array<PathTracer::Ray, k_feelers> rays;
     std::array<PathTracer::Hit, k_feelers> hits;
-    const float reach = 0.5f * step_ * static_cast<float>(fine_);
     for (std::size_t i = 0; i < k_feelers; ++i)
         rays[i] = {position, direction_at(feelers_, i), std::numeric_limits<float>::infinity()};
     tracer_.closest(rays, hits);
@@ -167,9 +171,38 @@ Vec3 ProbeBaker::pushed_out(Vec3 position) const {
         ++backs;
         if (nearest == k_feelers || hits[i].distance < hits[nearest].distance) nearest = i;
     }
-    if (static_cast<float>(backs) <= k_most_back_faces * k_feelers || hits[nearest].distance > reach) return position;
-    // A little beyond, so that the wall does not fill half of the view.
-    return position + rays[nearest].direction * (hits[nearest].distance + 0.1f * reach);
+    if (static_cast<float>(backs) <= k_back_faces_to_move * k_feelers || hits[nearest].distance > reach) return {};
+    return rays[nearest].direction * (hits[nearest].distance + 0.05f * step_ * static_cast<float>(fine_));
+}
+
+Vec3 ProbeBaker::pushed_out(Vec3 position) const {
+    // Half a cell's diagonal: so far outside may lie the corner of a grid about a room. There may be several walls to
+    // pass.
+    float left = 0.5f * std::sqrt(3.0f) * step_ * static_cast<float>(fine_);
+    for (int step = 0; step < 3; ++step) {
+        const auto way = way_out(position, left);
+        if (!way) break;
+        position = position + *way;
+        left = std::max(0.0f, left - length(*way));
+    }
+    return position;
+}
+
+/// All samples of one probe.
+void ProbeBaker::bake_one(std::size_t probe, SiteWorker& worker) {
+    Site& site = sites_[probe];
+    site.positions[0] = pushed_out(site.positions[0]);
+    std::vector<float> state(layout_.floats());
+    PassOptions pass;
+    pass.domain = Domain::sphere;
+    for (std::uint32_t s = 0; s < options_.samples; s += k_samples_per_pass) {
+        pass.samples = {s, k_samples_per_pass};
+        worker.run({&site, 1}, layout_, codec_.encoder().get(), state, pass);
+    }
+    const std::size_t n = codec_.basis().size();
+    summaries_[probe] = summary(layout_.record(std::span<const float>(state)), k_samples_per_pass);
+    codec_.encoder()->solve(layout_.encoder(std::span<const float>(state)),
+                            std::span(coefficients_).subspan(probe * n, n));
 }
 
 Status ProbeBaker::bake(std::span<const Place> wanted, int level, const BakeProgressSink& progress) {
@@ -186,27 +219,16 @@ Status ProbeBaker::bake(std::span<const Place> wanted, int level, const BakeProg
         site.key = 0x80000000u + static_cast<std::uint32_t>(sites_.size());
         sites_.push_back(site);
     }
-    const std::size_t count = sites_.size() - first, n = codec_.basis().size();
+    const std::size_t count = sites_.size() - first;
     summaries_.resize(sites_.size());
-    coefficients_.resize(sites_.size() * n);
+    coefficients_.resize(sites_.size() * codec_.basis().size());
 
     tbb::enumerable_thread_specific<SiteWorker> workers([&] { return SiteWorker(tracer_); });
     std::atomic<std::size_t> done = 0;
     std::mutex mutex;
     tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
         if (stop_.load(std::memory_order_relaxed)) return;
-        Site& site = sites_[first + i];
-        site.positions[0] = pushed_out(site.positions[0]);
-        std::vector<float> state(layout_.floats());
-        PassOptions pass;
-        pass.domain = Domain::sphere;
-        for (std::uint32_t s = 0; s < options_.samples; s += k_samples_per_pass) {
-            pass.samples = {s, k_samples_per_pass};
-            workers.local().run({&site, 1}, layout_, codec_.encoder().get(), state, pass);
-        }
-        summaries_[first + i] = summary(layout_.record(std::span<const float>(state)), k_samples_per_pass);
-        codec_.encoder()->solve(layout_.encoder(std::span<const float>(state)),
-                                std::span(coefficients_).subspan((first + i) * n, n));
+        bake_one(first + i, workers.local());
         ++done;
         if (!progress || !mutex.try_lock()) return;
         BakeProgress is;

@@ -22,8 +22,9 @@ struct ProbeOptions {
 /// An error where the codec does not suit or there would be too many probes.
 [[nodiscard]] Status check(const ProbeOptions& options, const World& world);
 
-/// Places and bakes them. A probe that sees more than a quarter of back faces is moved out through the nearest of them,
-/// by half the spacing at most; one that still does is kept with its low validity. Deterministic at any thread count.
+/// Places and bakes them. A probe that sees back faces in more than a sixteenth of all directions is moved out through
+/// the nearest of them, through three at most and by half a coarse cell's diagonal; one that still does is kept with
+/// its low validity. Deterministic at any thread count.
 [[nodiscard]] Result<ProbeSet> bake_probes(const PathTracer& tracer, const ProbeOptions& options, unsigned threads,
                                            const std::atomic<bool>& stop, const BakeProgressSink& progress = {});
 

@@ -15,6 +15,7 @@ struct Site {
     Vec3 normal;  ///< unit
     std::uint32_t key = 0;
     std::uint8_t position_count = 0;
+    bool buried = false;  ///< sees back faces all around: no light can come here
 };
 
 /// The floats of one site: the encoder's state, then the record.

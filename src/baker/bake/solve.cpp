@@ -22,11 +22,17 @@ class Reader {
           around_(uniform_directions(Domain::hemisphere, Sequence::hammersley, k_readings - 1, 0)),
           normals_(k_readings),
           readings_(k_readings),
-          c_(options.codec == nullptr ? 0 : options.codec->basis().size()) {}
+          c_(options.codec == nullptr ? 0 : options.codec->basis().size()),
+          for_page_(options.pages == nullptr ? 0 : options.pages->basis().size()) {}
 
+    /// The coefficients for the page; the codec's own are kept for read().
     std::span<const Rgb> solve(std::span<const float> state) {
-        options_.codec->encoder()->solve(state, c_);
-        return c_;
+        options_.pages->solve(state, for_page_);
+        if (options_.pages == options_.codec->encoder().get())
+            c_ = for_page_;
+        else
+            options_.codec->basis().fitted()->fit(for_page_, c_);
+        return for_page_;
     }
 
     /// Signed irradiance by the codec at the normal and around it.
@@ -45,7 +51,7 @@ class Reader {
     const SolveOptions& options_;
     Directions around_, normals_;
     Colours readings_;
-    std::vector<Rgb> c_;
+    std::vector<Rgb> c_, for_page_;
 };
 
 void count_readings(ColourView readings, Rgb by_paths, SolveTotals& totals) {
@@ -79,6 +85,7 @@ void put(Page& page, std::size_t pixel, const PageLayout& layout, std::span<cons
 void SolveTotals::add(const SolveTotals& other) {
     texels += other.texels;
     invalid += other.invalid;
+    buried += other.buried;
     squared_error += other.squared_error;
     irradiance += other.irradiance;
     back_faces += other.back_faces;
@@ -95,8 +102,9 @@ void SolveTotals::finish(BakeStatistics& statistics) const {
     const double mean = irradiance / count;
     const auto over = [](double a, double b) { return b > 0 ? a / b : 0; };
     statistics.invalid_texels = invalid;
+    statistics.buried_texels = buried;
     statistics.mean_error = over(std::sqrt(squared_error / count), mean);
-    statistics.back_face_share = back_faces / count;
+    statistics.back_face_share = over(back_faces, static_cast<double>(texels - buried));
     statistics.codec_error = over(std::sqrt(codec_squared_error / count), mean);
     statistics.negative_share = over(static_cast<double>(negative), static_cast<double>(readings));
     statistics.ringing = over(negative_part, std::abs(reading));
@@ -105,7 +113,7 @@ void SolveTotals::finish(BakeStatistics& statistics) const {
 void solve_onto(std::span<Page> pages, const TexelMap& map, std::span<const std::uint32_t> texels,
                 std::span<const float> states, const SiteLayout& layout, const SolveOptions& options,
                 std::span<const Site> sites, const Atlas& atlas, SolveTotals& totals) {
-    const PageLayout planes{options.codec == nullptr ? 0 : options.codec->basis().size()};
+    const PageLayout planes{options.pages == nullptr ? 0 : options.pages->basis().size()};
     const auto solve_range = [&](const tbb::blocked_range<std::size_t>& range, SolveTotals sum) {
         Reader reader(options);
         for (std::size_t k = range.begin(); k < range.end(); ++k) {
@@ -119,7 +127,9 @@ void solve_onto(std::span<Page> pages, const TexelMap& map, std::span<const std:
                 options.codec == nullptr ? std::span<const Rgb>() : reader.solve(layout.encoder(state)), is);
 
             sum.texels += 1;
-            sum.back_faces += 1 - is.validity;
+            const bool buried = sites[k].buried && is.validity < 0.5f;
+            sum.buried += buried;
+            sum.back_faces += buried ? 0 : 1 - is.validity;
             if (is.validity < 0.5f) {
                 sum.invalid += 1;
                 continue;

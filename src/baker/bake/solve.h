@@ -8,7 +8,7 @@ namespace lobelia {
 
 /// Sums over texels; finish turns them into the statistics.
 struct SolveTotals {
-    std::size_t texels = 0, invalid = 0;
+    std::size_t texels = 0, invalid = 0, buried = 0;
     double squared_error = 0, irradiance = 0, back_faces = 0;
     double codec_squared_error = 0;
     std::size_t readings = 0, negative = 0;
@@ -19,7 +19,8 @@ struct SolveTotals {
 };
 
 struct SolveOptions {
-    const Codec* codec = nullptr;  ///< null: irradiance alone
+    const Codec* codec = nullptr;    ///< null: irradiance alone
+    const Encoder* pages = nullptr;  ///< whose coefficients the pages hold: the codec's, or what it accumulates with
     std::uint32_t samples_per_pass = 16;
     bool in_tangent_frame = false;
 };

@@ -2,13 +2,14 @@
 #include "baker/bake/study_bake.h"
 
 #include <fmt/format.h>
-#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <mutex>
 #include <set>
+#include <tuple>
 
 #include "baker/atlas/texels.h"
 #include "lobelia/environment.h"
@@ -30,12 +31,13 @@ Directions tilted_normals() {
     return normals;
 }
 
-/// One basis with one encoder, and all ways to read it.
+/// One basis with one encoder, all ways to store it and all ways to read it.
 struct Subject {
     CodecName name;  ///< without evaluator
     std::shared_ptr<const Encoder> encoder;
+    std::vector<const Storage*> storages;  ///< null first: as solved
     std::vector<std::shared_ptr<const Evaluator>> evaluators;
-    std::size_t first_reading = 0;  ///< of its evaluators, among all
+    std::size_t first_reading = 0;  ///< of its storages and evaluators, among all
 };
 
 /// Sums over texels, for each reading and normal class.
@@ -43,6 +45,54 @@ struct Sums {
     double at_normal = 0, tilted = 0;
     std::size_t negative = 0;
 };
+
+/// What a texel gave: the coefficients of each method, and the truth.
+struct Encoded {
+    std::vector<std::vector<Rgb>> c;
+    Colours truth{k_normals};
+    bool valid = true;
+};
+
+/// Texels that are judged together: those of a block, row by row, or one alone.
+using Unit = std::vector<std::size_t>;
+constexpr std::size_t k_block_side = 4, k_block_texels = k_block_side * k_block_side;
+
+/// One for each texel, or the whole blocks.
+std::vector<Unit> all_units(const TexelMap& map, bool blocks) {
+    std::vector<Unit> units;
+    if (!blocks) {
+        for (std::size_t i = 0; i < map.texels.size(); ++i) units.push_back({i});
+        return units;
+    }
+    std::map<std::tuple<std::size_t, std::size_t, std::size_t>, Unit> found;
+    for (std::size_t i = 0; i < map.texels.size(); ++i) {
+        const CoveredTexel& at = map.texels[i];
+        found[{at.page, at.y / k_block_side, at.x / k_block_side}].push_back(i);
+    }
+    for (auto& [place, unit] : found)
+        if (unit.size() == k_block_texels) units.push_back(std::move(unit));
+    return units;
+}
+
+/// The coefficients of a block as they come back from storage.
+std::vector<std::vector<Rgb>> through_storage(const Storage& storage, const CoefficientTraits& traits,
+                                              std::span<const std::vector<Rgb>> c) {
+    std::vector<std::vector<float>> planes(3 * traits.count, std::vector<float>(k_block_texels));
+    for (std::size_t t = 0; t < c.size(); ++t)
+        for (std::size_t i = 0; i < traits.count; ++i) {
+            planes[3 * i][t] = c[t][i].r;
+            planes[3 * i + 1][t] = c[t][i].g;
+            planes[3 * i + 2][t] = c[t][i].b;
+        }
+    const TextureLayout layout = storage.layout(traits);
+    const MutableCoefficientPlanes block(k_block_side, k_block_side, std::span(planes), traits.count);
+    unpack(layout, pack(layout, block), block);
+    std::vector<std::vector<Rgb>> read(c.size(), std::vector<Rgb>(traits.count));
+    for (std::size_t t = 0; t < c.size(); ++t)
+        for (std::size_t i = 0; i < traits.count; ++i)
+            read[t][i] = {planes[3 * i][t], planes[3 * i + 1][t], planes[3 * i + 2][t]};
+    return read;
+}
 
 class BakeStudy {
   public:
@@ -53,11 +103,16 @@ class BakeStudy {
             const auto basis = make_basis(basis_name);
             if (!basis) return basis.error();
             for (const auto& encoder_name : encoder_names(**basis)) {
-                Subject method{
-                    {basis_name, encoder_name, {}}, make_encoder(encoder_name, *basis).value(), {}, readings_};
+                Subject method{{basis_name, encoder_name, {}},
+                               make_encoder(encoder_name, *basis).value(),
+                               {nullptr},
+                               {},
+                               readings_};
+                for (const Storage* storage : options_.storages)
+                    if (suits(*storage, coefficient_traits(*method.encoder))) method.storages.push_back(storage);
                 for (const auto& evaluator : (*basis)->evaluator_names())
                     method.evaluators.push_back(make_evaluator(evaluator, **basis).value());
-                readings_ += method.evaluators.size();
+                readings_ += method.storages.size() * method.evaluators.size();
                 methods_.push_back(std::move(method));
             }
         }
@@ -65,14 +120,16 @@ class BakeStudy {
     }
 
     void run(const std::atomic<bool>& stop, const std::function<void(double)>& progress) {
-        const std::size_t all = baker_.texels().texels.size(), count = std::min(options_.texels, all);
-        sums_.assign(count, std::vector<Sums>(readings_));
-        means_.assign(count, 0);
+        const bool blocks = !options_.storages.empty();
+        const auto units = all_units(baker_.texels(), blocks);
+        const std::size_t wanted = blocks ? (options_.texels + k_block_texels - 1) / k_block_texels : options_.texels;
+        const std::size_t count = std::min(wanted, units.size());
+        parts_.resize(count);
         std::atomic<std::size_t> done = 0;
         std::mutex mutex;
         tbb::parallel_for(std::size_t{0}, count, [&](std::size_t k) {
             if (stop) return;
-            judge(k * all / count, sums_[k], means_[k]);
+            judge(units[k * units.size() / count], parts_[k]);
             ++done;
             if (!progress || !mutex.try_lock()) return;
             progress(static_cast<double>(done) / static_cast<double>(count));
@@ -80,22 +137,30 @@ class BakeStudy {
         });
     }
 
-    [[nodiscard]] Study result() const;
+    [[nodiscard]] BakedCodecs result() const;
 
   private:
-    void judge(std::size_t texel, std::vector<Sums>& sums, double& mean) const;
-    void compare(const Subject& method, std::span<const Rgb> c, ColourView truth, std::vector<Sums>& sums) const;
+    /// What a unit adds to the result.
+    struct Part {
+        std::size_t texels = 0;  ///< that are valid
+        double mean = 0;         ///< sum of their irradiances
+        std::vector<Sums> sums;  ///< for each reading
+    };
+
+    [[nodiscard]] Encoded encode(std::size_t texel) const;
+    void judge(const Unit& unit, Part& part) const;
+    /// Adds to the sums of each evaluator.
+    void compare(const Subject& method, std::span<const Rgb> c, ColourView truth, std::span<Sums> sums) const;
 
     const Baker& baker_;
     const BakeStudyOptions& options_;
     Directions normals_ = tilted_normals();
     std::vector<Subject> methods_;
     std::size_t readings_ = 0;
-    std::vector<std::vector<Sums>> sums_;
-    std::vector<double> means_;  ///< of each texel, 0 where it is invalid
+    std::vector<Part> parts_;
 };
 
-void BakeStudy::judge(std::size_t index, std::vector<Sums>& sums, double& mean) const {
+Encoded BakeStudy::encode(std::size_t index) const {
     std::vector<Texel> texel;
     const PathTracer& tracer = baker_.tracer();
     make_texels(baker_.atlas(), baker_.texels(), index, index + 1, tracer, Switch::on, texel);
@@ -106,11 +171,12 @@ void BakeStudy::judge(std::size_t index, std::vector<Sums>& sums, double& mean) 
     gathering.dark_below = Switch::on;
 
     // The same samples for all: the first of them go to the encoders, all of them to the reference.
+    Encoded result;
     std::vector<std::vector<float>> states;
     for (const Subject& method : methods_) states.emplace_back(method.encoder->state_size());
     const auto scratch = tracer.make_scratch();
     GatherBuffer buffer;
-    Colours truth(k_normals), part(k_normals);
+    Colours part(k_normals);
     std::uint32_t back_faces = 0;
     for (std::uint32_t first = 0; first < options_.reference_samples; first += k_batch) {
         gather(tracer, {&receiver, 1}, {first, k_batch}, gathering, buffer, *scratch);
@@ -119,7 +185,7 @@ void BakeStudy::judge(std::size_t index, std::vector<Sums>& sums, double& mean) 
         for (const SampleView& view : {above, buffer.sources(0)}) {
             irradiance_sum(view, normals_, part);
             for (std::size_t c = 0; c < 3; ++c)
-                for (std::size_t j = 0; j < k_normals; ++j) truth.channel(c)[j] += part.channel(c)[j];
+                for (std::size_t j = 0; j < k_normals; ++j) result.truth.channel(c)[j] += part.channel(c)[j];
         }
         if (first >= options_.samples) continue;
         for (std::size_t m = 0; m < methods_.size(); ++m) {
@@ -128,21 +194,42 @@ void BakeStudy::judge(std::size_t index, std::vector<Sums>& sums, double& mean) 
             encoder.add_sources(states[m], buffer.sources(0));
         }
     }
-    if (2 * back_faces > options_.reference_samples) return;
-    scale(truth, static_cast<float>(2 * k_pi / options_.reference_samples));
-    mean = luminance(colour_at(truth, 0));
+    scale(result.truth, static_cast<float>(2 * k_pi / options_.reference_samples));
+    result.valid = 2 * back_faces <= options_.reference_samples && luminance(colour_at(result.truth, 0)) > 0;
     for (std::size_t m = 0; m < methods_.size(); ++m) {
-        std::vector<Rgb> c(methods_[m].encoder->basis().size());
-        methods_[m].encoder->solve(states[m], c);
-        compare(methods_[m], c, truth, sums);
+        result.c.emplace_back(methods_[m].encoder->basis().size());
+        methods_[m].encoder->solve(states[m], result.c.back());
+    }
+    return result;
+}
+
+void BakeStudy::judge(const Unit& unit, Part& part) const {
+    part.sums.resize(readings_);
+    std::vector<Encoded> texels;
+    for (const std::size_t texel : unit) texels.push_back(encode(texel));
+    for (const Encoded& texel : texels)
+        if (texel.valid) {
+            ++part.texels;
+            part.mean += luminance(colour_at(texel.truth, 0));
+        }
+    for (std::size_t m = 0; m < methods_.size(); ++m) {
+        std::vector<std::vector<Rgb>> solved;
+        for (Encoded& texel : texels) solved.push_back(std::move(texel.c[m]));
+        const auto traits = coefficient_traits(*methods_[m].encoder);
+        std::span<Sums> rest = std::span(part.sums).subspan(methods_[m].first_reading);
+        for (const Storage* storage : methods_[m].storages) {
+            const auto read = storage == nullptr ? solved : through_storage(*storage, traits, solved);
+            for (std::size_t t = 0; t < texels.size(); ++t)
+                if (texels[t].valid) compare(methods_[m], read[t], texels[t].truth, rest);
+            rest = rest.subspan(methods_[m].evaluators.size());
+        }
     }
 }
 
-void BakeStudy::compare(const Subject& method, std::span<const Rgb> c, ColourView truth,
-                        std::vector<Sums>& sums) const {
+void BakeStudy::compare(const Subject& method, std::span<const Rgb> c, ColourView truth, std::span<Sums> sums) const {
     Colours read(k_normals);
     for (std::size_t e = 0; e < method.evaluators.size(); ++e) {
-        Sums& sum = sums[method.first_reading + e];
+        Sums& sum = sums[e];
         method.evaluators[e]->signed_irradiance(c, normals_, read);
         for (std::size_t j = 0; j < k_normals; ++j)
             if (luminance(colour_at(read, j)) < 0) ++sum.negative;
@@ -154,72 +241,85 @@ void BakeStudy::compare(const Subject& method, std::span<const Rgb> c, ColourVie
     }
 }
 
-Study BakeStudy::result() const {
-    std::size_t texels = 0;
+BakedCodecs BakeStudy::result() const {
+    BakedCodecs result;
     double mean = 0;
     std::vector<Sums> totals(readings_);
-    for (std::size_t k = 0; k < means_.size(); ++k) {
-        if (!(means_[k] > 0)) continue;
-        ++texels;
-        mean += means_[k];
-        for (std::size_t r = 0; r < readings_; ++r) {
-            totals[r].at_normal += sums_[k][r].at_normal;
-            totals[r].tilted += sums_[k][r].tilted;
-            totals[r].negative += sums_[k][r].negative;
+    for (const Part& part : parts_) {
+        result.texels += part.texels;
+        mean += part.mean;
+        for (std::size_t r = 0; r < part.sums.size(); ++r) {
+            totals[r].at_normal += part.sums[r].at_normal;
+            totals[r].tilted += part.sums[r].tilted;
+            totals[r].negative += part.sums[r].negative;
         }
     }
-    const auto count = static_cast<double>(texels);
+    const auto count = static_cast<double>(result.texels);
     mean /= count;
-
-    // The best reading of each method, and the methods by their error at tilted normals.
-    struct Row {
-        std::string name;
-        std::size_t floats;
-        double at_normal, tilted, negative;
-    };
-    std::vector<Row> rows;
     for (const Subject& method : methods_) {
-        std::vector<Row> readings;
-        for (std::size_t e = 0; e < method.evaluators.size(); ++e) {
-            const Sums& sum = totals[method.first_reading + e];
-            CodecName name = method.name;
-            name.evaluator = method.evaluators[e]->name();
-            readings.push_back({name.str(), 3 * method.encoder->basis().size(), std::sqrt(sum.at_normal / count) / mean,
-                                std::sqrt(sum.tilted / (count * (k_normals - 1))) / mean,
-                                static_cast<double>(sum.negative) / (count * k_normals)});
+        const Sums* sum = totals.data() + method.first_reading;
+        const auto traits = coefficient_traits(*method.encoder);
+        for (const Storage* storage : method.storages) {
+            const double bytes = storage == nullptr ? 12.0 * static_cast<double>(method.encoder->basis().size())
+                                                    : bytes_per_texel(storage->layout(traits));
+            for (const auto& evaluator : method.evaluators) {
+                result.codecs.push_back({{method.name.basis, method.name.encoder, evaluator->name()},
+                                         storage,
+                                         bytes,
+                                         std::sqrt(sum->at_normal / count) / mean,
+                                         std::sqrt(sum->tilted / (count * (k_normals - 1))) / mean,
+                                         static_cast<double>(sum->negative) / (count * k_normals)});
+                ++sum;
+            }
         }
-        rows.push_back(*std::min_element(readings.begin(), readings.end(),
-                                         [](const Row& a, const Row& b) { return a.tilted < b.tilted; }));
     }
-    std::stable_sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) { return a.tilted < b.tilted; });
+    return result;
+}
 
-    Study study;
-    study.name = "bake";
-    study.title = "Irradiance of baked codecs against a long reference";
-    study.summary = fmt::format(
-        "{} texels, {} samples each for the codecs and {} for the reference; RMS over texels of the "
-        "luminance of E, over its mean. Normals are tilted by up to 60 degrees.",
-        texels, options_.samples, options_.reference_samples);
-    Study::Table& table = study.tables.emplace_back();
-    table.title = study.title;
-    table.columns = {"codec", "floats", "E at the normal", "E at tilted normals", "negative"};
-    for (const Row& row : rows)
-        table.rows.push_back({row.name, std::to_string(row.floats), table_number(row.at_normal, 3),
-                              table_number(row.tilted, 3), fmt::format("{:.2f} %", 100 * row.negative)});
-    return study;
+/// The best reading of each basis and encoder, ordered by error at tilted normals.
+std::vector<BakedCodec> best_readings(std::vector<BakedCodec> codecs) {
+    std::stable_sort(codecs.begin(), codecs.end(),
+                     [](const BakedCodec& a, const BakedCodec& b) { return a.tilted < b.tilted; });
+    std::set<std::pair<std::string, std::string>> seen;
+    std::erase_if(codecs, [&](const BakedCodec& c) { return !seen.emplace(c.name.basis, c.name.encoder).second; });
+    return codecs;
 }
 
 }  // namespace
 
-Result<Study> study_bake(const Scene& scene, const BakeOptions& bake, const BakeStudyOptions& options,
-                         const std::atomic<bool>& stop, const std::function<void(double)>& progress) {
+Result<BakedCodecs> judge_baked_codecs(const Scene& scene, const BakeOptions& bake, const BakeStudyOptions& options,
+                                       const std::atomic<bool>& stop, const std::function<void(double)>& progress) {
     auto baker = Baker::make(scene, bake);
     if (!baker) return baker.error();
     BakeStudy study(**baker, options);
     if (auto status = study.find_methods(); !status) return status.error();
     study.run(stop, progress);
     if (stop) return Error{"stopped"};
-    return study.result();
+    BakedCodecs judged = study.result();
+    if (judged.texels == 0) return Error{"no texel of the scene is valid and lit"};
+    return judged;
+}
+
+Result<Study> study_bake(const Scene& scene, const BakeOptions& bake, const BakeStudyOptions& options,
+                         const std::atomic<bool>& stop, const std::function<void(double)>& progress) {
+    BakeStudyOptions as_solved = options;
+    as_solved.storages.clear();
+    const auto judged = judge_baked_codecs(scene, bake, as_solved, stop, progress);
+    if (!judged) return judged.error();
+    Study study;
+    study.name = "bake";
+    study.title = "Irradiance of baked codecs against a long reference";
+    study.summary = fmt::format(
+        "{} texels, {} samples each for the codecs and {} for the reference; RMS over texels of the "
+        "luminance of E, over its mean. Normals are tilted by up to 60 degrees.",
+        judged->texels, options.samples, options.reference_samples);
+    Study::Table& table = study.tables.emplace_back();
+    table.title = study.title;
+    table.columns = {"codec", "floats", "E at the normal", "E at tilted normals", "negative"};
+    for (const BakedCodec& c : best_readings(judged->codecs))
+        table.rows.push_back({c.name.str(), fmt::format("{:.0f}", c.bytes / 4), table_number(c.at_normal, 3),
+                              table_number(c.tilted, 3), fmt::format("{:.2f} %", 100 * c.negative_share)});
+    return study;
 }
 
 }  // namespace lobelia

@@ -16,17 +16,18 @@ struct Guides {
 /// Positions and normals as make_texels gives them.
 [[nodiscard]] Guides make_guides(const Atlas& atlas, const TexelMap& map);
 
-/// Makes the two sides of each seam agree: where an edge of a triangle lies in two places (of one object or of two that
-/// touch), the bilinearly filtered values along it, as they are read after `dilate`. Least squares over the texels near
-/// seams: |difference along the seam|^2 + weight |change|^2, one sparse system (Eigen) for all channels of all pages.
-/// Positions within `tolerance` [m] and normals within about 10 degrees count as the same edge.
+/// Makes the two sides of each seam agree: where an edge of a triangle, or the part of it at which a shorter one lies,
+/// lies in two places (of one object or of two that touch), the bilinearly filtered values along it, as they are read
+/// after `dilate`. Least squares over the texels near seams: |difference along the seam|^2 + weight |change|^2, one
+/// sparse system (Eigen) for all channels of all pages. Positions within `tolerance` [m] and normals within about 10
+/// degrees count as the same edge.
 struct SeamOptions {
     float weight = 0.05f;
     float tolerance = 1e-4f;
     float least_validity = 0.5f;  ///< as for `dilate`, which will replace texels below it
 };
 struct SeamReport {
-    std::size_t edges = 0;         ///< pairs that were joined
+    std::size_t edges = 0;         ///< pairs, of edges or of parts, that were joined
     double before = 0, after = 0;  ///< RMS difference of the irradiance channels along them
 };
 SeamReport close_seams(std::span<Page> pages, const PageLayout& layout, const Atlas& atlas,
@@ -43,6 +44,10 @@ struct DenoiseOptions {
 };
 void denoise(std::span<Page> pages, const PageLayout& layout, const Guides& guides, std::span<const double> integrals,
              double domain_solid_angle, const DenoiseOptions& options = {});
+
+/// From pages of what `basis` is fitted from to pages of its own coefficients, texel by texel, empty ones, too. The
+/// last step.
+[[nodiscard]] std::vector<Page> fit_pages(std::span<const Page> pages, const FittedBasis& basis);
 
 /// Fills texels where nothing was baked, or whose validity is below `least_validity`, from their nearest valid
 /// neighbours within `radius` texels, of the same chart first; so that filtering and mips read no rubbish. `chart`

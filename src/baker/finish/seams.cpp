@@ -6,77 +6,18 @@
 #include <algorithm>
 #include <cmath>
 
-#include "baker/atlas/edges.h"
+#include "baker/finish/find_seams.h"
 #include "baker/finish/finish.h"
 #include "baker/finish/nearest.h"
 
 namespace lobelia {
 namespace {
 
-/// Cosine of the largest angle between normals of one edge: 10 degrees.
-constexpr float k_least_cosine = 0.98481f;
 /// Points along a seam [per texel], and of all seams together at most.
 constexpr double k_points_per_texel = 2;
 constexpr double k_most_points = 1 << 21;
 /// So much of a footprint must be there for its point to count.
 constexpr float k_least_footprint = 0.25f;
-
-/// An edge as it lies on a page, its ends in the order of their places in the world.
-struct SeamSide {
-    std::uint32_t triangle = 0;
-    std::array<Vec2, 2> ends;  ///< [texels]
-    std::array<Vec3, 2> normals;
-};
-struct Seam {
-    SeamSide a, b;
-    [[nodiscard]] double texels() const {
-        const auto along = [](const SeamSide& s) {
-            return std::hypot(s.ends[1].x - s.ends[0].x, s.ends[1].y - s.ends[0].y);
-        };
-        return std::max(along(a), along(b));
-    }
-};
-
-SeamSide side_of(const Atlas& atlas, const std::vector<std::uint32_t>& welded, const WorldEdge& edge) {
-    const World& world = atlas.world();
-    const std::array<Vec2, 3> corners = atlas.texel_triangle(edge.triangle);
-    std::size_t first = edge.side, second = (edge.side + 1u) % 3;
-    if (welded[world.triangles[edge.triangle][first]] != edge.low) std::swap(first, second);
-    const auto normal = [&](std::size_t corner) { return world.normals[world.triangles[edge.triangle][corner]]; };
-    return {edge.triangle, {corners[first], corners[second]}, {normal(first), normal(second)}};
-}
-
-/// Whether both are one and the same edge on the page: the inside of a chart.
-bool same_on_page(const Atlas& atlas, const SeamSide& a, const SeamSide& b) {
-    constexpr float k_near = 1e-2f;  // [texels]
-    const auto near = [](Vec2 p, Vec2 q) { return std::hypot(p.x - q.x, p.y - q.y) < k_near; };
-    return atlas.page_of(a.triangle) == atlas.page_of(b.triangle) && near(a.ends[0], b.ends[0]) &&
-           near(a.ends[1], b.ends[1]);
-}
-
-std::vector<Seam> find_seams(const Atlas& atlas, float tolerance) {
-    const World& world = atlas.world();
-    const std::vector<std::uint32_t> welded = weld_positions(world, tolerance);
-    std::vector<WorldEdge> edges = sorted_edges(world, welded);
-    std::erase_if(edges, [&](const WorldEdge& e) { return !atlas.placements()[world.object[e.triangle]].baked; });
-
-    // Join each edge to the one before it at the same place whose normals agree. Three or more become a chain.
-    constexpr std::size_t k_most_back = 8;
-    std::vector<Seam> seams;
-    for (std::size_t i = 1; i < edges.size(); ++i)
-        for (std::size_t back = 1; back <= std::min(i, k_most_back) && edges[i - back].same_place(edges[i]); ++back) {
-            const SeamSide a = side_of(atlas, welded, edges[i - back]), b = side_of(atlas, welded, edges[i]);
-            if (dot(a.normals[0], b.normals[0]) < k_least_cosine || dot(a.normals[1], b.normals[1]) < k_least_cosine)
-                continue;
-            if (!same_on_page(atlas, a, b)) seams.push_back({a, b});
-            break;
-        }
-
-    // What is longer than any page is no edge that anybody sees.
-    const auto longest = static_cast<double>(atlas.width() + atlas.height());
-    std::erase_if(seams, [&](const Seam& s) { return s.texels() > longest; });
-    return seams;
-}
 
 /// A texel of all pages, and how much of it counts.
 struct Share {
@@ -145,14 +86,18 @@ struct SeamSystem {
     SparseMatrix matrix;
 };
 
-SeamSystem make_system(const Atlas& atlas, std::span<const Seam> seams, Footprints& footprints, float change_weight) {
-    // Put points on the seams; each weighs as many texels of the seam as it stands for.
+/// One difference for each point of a seam: the shares [first[i], first[i + 1]) of both sides.
+struct SeamDifferences {
+    std::vector<Share> shares;
+    std::vector<std::size_t> first{0};
+    std::vector<double> weight;  ///< the texels of the seam that each stands for
+};
+
+SeamDifferences find_differences(const Atlas& atlas, std::span<const Seam> seams, Footprints& footprints) {
     double length = 0;
     for (const Seam& seam : seams) length += seam.texels();
     const double per_texel = std::min(k_points_per_texel, k_most_points / std::max(length, 1.0));
-    SeamSystem system;
-    std::vector<Share> shares;
-    std::vector<std::size_t> first{0};
+    SeamDifferences result;
     const auto& charts = atlas.chart_of_triangle();
     for (const Seam& seam : seams) {
         const auto points = static_cast<std::size_t>(std::ceil(std::max(1.0, seam.texels() * per_texel)));
@@ -161,18 +106,24 @@ SeamSystem make_system(const Atlas& atlas, std::span<const Seam> seams, Footprin
             const float s = (static_cast<float>(i) + 0.5f) / static_cast<float>(points);
             const auto append = [&](const SeamSide& side, double scale) {
                 return footprints.append(atlas.page_of(side.triangle), charts[side.triangle],
-                                         side.ends[0] * (1 - s) + side.ends[1] * s, static_cast<float>(scale), shares);
+                                         side.ends[0] * (1 - s) + side.ends[1] * s, static_cast<float>(scale),
+                                         result.shares);
             };
             if (!append(seam.a, std::sqrt(weight)) || !append(seam.b, -std::sqrt(weight))) {
-                shares.resize(first.back());
+                result.shares.resize(result.first.back());
                 continue;
             }
-            first.push_back(shares.size());
-            system.weight.push_back(weight);
+            result.first.push_back(result.shares.size());
+            result.weight.push_back(weight);
         }
     }
+    return result;
+}
 
+SeamSystem make_system(SeamDifferences differences, float change_weight) {
     // Number the texels in their order.
+    SeamSystem system;
+    const std::vector<Share>& shares = differences.shares;
     for (const Share& share : shares) system.texels.push_back(share.texel);
     std::sort(system.texels.begin(), system.texels.end());
     system.texels.erase(std::unique(system.texels.begin(), system.texels.end()), system.texels.end());
@@ -184,15 +135,16 @@ SeamSystem make_system(const Atlas& atlas, std::span<const Seam> seams, Footprin
     // Fill the matrix.
     std::vector<Eigen::Triplet<double>> entries;
     entries.reserve(shares.size() + system.texels.size());
-    for (std::size_t row = 0; row + 1 < first.size(); ++row)
-        for (std::size_t i = first[row]; i < first[row + 1]; ++i)
+    for (std::size_t row = 0; row + 1 < differences.first.size(); ++row)
+        for (std::size_t i = differences.first[row]; i < differences.first[row + 1]; ++i)
             entries.emplace_back(static_cast<int>(row), number(shares[i].texel), shares[i].weight);
     for (std::size_t i = 0; i < system.texels.size(); ++i)
-        entries.emplace_back(static_cast<int>(system.weight.size() + i), static_cast<int>(i),
+        entries.emplace_back(static_cast<int>(differences.weight.size() + i), static_cast<int>(i),
                              std::sqrt(static_cast<double>(change_weight)));
-    system.matrix.resize(static_cast<Eigen::Index>(system.weight.size() + system.texels.size()),
+    system.matrix.resize(static_cast<Eigen::Index>(differences.weight.size() + system.texels.size()),
                          static_cast<Eigen::Index>(system.texels.size()));
     system.matrix.setFromTriplets(entries.begin(), entries.end());
+    system.weight = std::move(differences.weight);
     return system;
 }
 
@@ -232,7 +184,7 @@ SeamReport close_seams(std::span<Page> pages, const PageLayout& layout, const At
     const std::vector<Seam> seams = find_seams(atlas, options.tolerance);
     SeamReport report{.edges = seams.size()};
     Footprints footprints(pages, options.least_validity);
-    const SeamSystem system = make_system(atlas, seams, footprints, std::max(options.weight, 1e-6f));
+    const SeamSystem system = make_system(find_differences(atlas, seams, footprints), std::max(options.weight, 1e-6f));
     if (system.weight.empty()) return report;
 
     // All but the error, which is no light.

@@ -51,6 +51,7 @@ void fields(auto& archive, BakeOptions& options) {
 void fields(auto& archive, BakeStatistics& statistics) {
     archive.whole("texels", statistics.texels, 0, k_any_u64);
     archive.whole("invalid_texels", statistics.invalid_texels, 0, k_any_u64);
+    archive.whole("buried_texels", statistics.buried_texels, 0, k_any_u64);
     archive.whole("rays", statistics.rays, 0, k_any_u64);
     archive.number("seconds", statistics.seconds);
     archive.whole("samples", statistics.samples, 0, k_any_u32);

@@ -23,8 +23,8 @@ struct RenderOptions {
 
 /// Radiance [W/(m^2 sr)] by path tracing: of each pixel the mean over samples of PathTracer::trace, what is emitted and
 /// what is scattered. The camera sees a surface before light meets any, so that for a picture to hold a bake with B
-/// bounces against, the tracer needs B + 1. Unlit surfaces show their base colour unless something that blends lies
-/// before them. The same bits for any number of threads; nothing where `stop` was set on the way.
+/// bounces against, the tracer needs B + 1. Unlit surfaces show their base colour. The same bits for any number of
+/// threads; nothing where `stop` was set on the way.
 [[nodiscard]] std::optional<Image> render_paths(const PathTracer& tracer, const Camera& camera,
                                                 const RenderOptions& options = {});
 

@@ -5,14 +5,13 @@
 #include <cmath>
 #include <limits>
 
+#include "baker/transport/wave.h"
+
 namespace lobelia {
 namespace {
 
 /// Beyond so many surfaces, one behind another, the path tracer takes over.
 constexpr int k_most_layers = 64;
-
-/// Random numbers of this file's decisions; the path tracer's own salts are made otherwise.
-constexpr std::uint32_t k_salt = 0x73696768;
 
 }  // namespace
 
@@ -51,8 +50,6 @@ CameraView::Meets CameraView::meet(const PathTracer::Hit& hit, std::uint32_t sal
     const bool baked = baked_[world.object[hit.triangle]] != 0 && !hit.back_face;
     kind = material.unlit ? Sight::Kind::unlit : baked ? Sight::Kind::baked : Sight::Kind::paths;
     if (material.alpha_mode == Material::Alpha::opaque) return Meets::stops;
-    // Masks let through by their value alone; whether a blend does is the path tracer's to say where it goes on.
-    if (material.alpha_mode == Material::Alpha::blend && kind == Sight::Kind::paths) return Meets::paths;
     return surfaces_.passes(hit.triangle, hit.u, hit.v, salt) ? Meets::passes : Meets::stops;
 }
 
@@ -79,8 +76,8 @@ void CameraView::look(std::span<const PathStart> rays, std::span<Sight> out) con
             const std::uint32_t i = active[k];
             if (!std::isfinite(hits[k].distance)) continue;
             Sight::Kind kind{};
-            const std::uint32_t salt =
-                mix(mix(rays[i].key, rays[i].sample), k_salt + static_cast<std::uint32_t>(layer));
+            // What the path tracer's first ray would decide, which may go on from here.
+            const std::uint32_t salt = transparency_salt(mix(rays[i].key, tracer_->options().seed), rays[i].sample, 0);
             const Meets meets = meet(hits[k], salt, kind);
             if (meets == Meets::stops && kind != Sight::Kind::paths) {
                 out[i].kind = kind;

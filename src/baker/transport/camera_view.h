@@ -41,7 +41,7 @@ class CameraView {
     CameraView(const PathTracer& tracer, std::vector<std::uint8_t> baked);
 
     /// One sight for each ray. Surfaces that blend let rays through by chance, always the same for the same key and
-    /// sample; one that is neither baked nor unlit is left to the path tracer, with all behind it.
+    /// sample, and the same as the path tracer's.
     void look(std::span<const PathStart> rays, std::span<Sight> out) const;
 
     /// Whether look() could find anything but paths.
@@ -51,7 +51,7 @@ class CameraView {
     [[nodiscard]] Rgb unlit_color(const PathTracer::Hit& hit) const;
 
   private:
-    enum class Meets { stops, passes, paths };
+    enum class Meets { stops, passes };
     [[nodiscard]] Meets meet(const PathTracer::Hit& hit, std::uint32_t salt, Sight::Kind& kind) const;
 
     const PathTracer* tracer_;

@@ -63,8 +63,7 @@ void PathTracer::direct(std::span<const PathStart> starts, std::span<const Vec3>
             out[first + i] = {};
             if (is_black(light.irradiance) || dot(normal, light.direction) < 0) continue;
             ++scratch.rays;
-            const std::uint32_t salt =
-                mix(mix(scratch.counters.mixed_keys[i], scratch.counters.samples[i]), 0xffffffffu);
+            const std::uint32_t salt = scratch.counters.salt(i, 0xffffffffu);
             if (!implementation_->rays.stopped(origin, light.direction, light.distance, salt, Backs::stop))
                 out[first + i] = {light.direction, light.irradiance, light.pdf};
         }

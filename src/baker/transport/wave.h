@@ -38,6 +38,11 @@ struct ShadowRay {
     std::uint32_t out = 0;
 };
 
+/// The random number of ray number `ray` of a path, for transparency; `mixed_key` is mix(key, seed) of its start.
+[[nodiscard]] inline std::uint32_t transparency_salt(std::uint32_t mixed_key, std::uint32_t sample, std::uint32_t ray) {
+    return mix(mix(mixed_key, sample), ray);
+}
+
 /// Which point of which sequence each path reads: parallel to the paths, for they are read in vectors.
 struct Counters {
     std::vector<std::uint32_t> mixed_keys = std::vector<std::uint32_t>(k_wave);
@@ -47,9 +52,8 @@ struct Counters {
         mixed_keys[to] = mixed_keys[from];
         samples[to] = samples[from];
     }
-    /// The random number of a path's ray number `ray`, for transparency.
     [[nodiscard]] std::uint32_t salt(std::size_t path, std::uint32_t ray) const {
-        return mix(mix(mixed_keys[path], samples[path]), ray);
+        return transparency_salt(mixed_keys[path], samples[path], ray);
     }
     /// Pair number `dimension_pair` of the first `count`.
     void draw(std::size_t count, std::uint32_t dimension_pair, Pairs& out) const {

@@ -28,6 +28,8 @@ class Encoder {
     /// they do not count as directions seen. Encoders for whom every sample is an observation add them as samples.
     virtual void add_sources(std::span<float> state, SampleView sources) const { add(state, sources); }
     virtual void merge(std::span<float> state, std::span<const float> other) const = 0;
+    /// The encoder of a linear basis that has the same state: this one, or what a fitted basis accumulates with.
+    [[nodiscard]] virtual const Encoder& accumulating() const { return *this; }
     /// Coefficients from what was seen; zeros where that was nothing. `c` has basis().size() entries.
     virtual void solve(std::span<const float> state, std::span<Rgb> c) const = 0;
 

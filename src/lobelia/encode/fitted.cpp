@@ -14,6 +14,10 @@ class FittedEncoder final : public Encoder {
     [[nodiscard]] std::size_t state_size() const override { return accumulating_->state_size(); }
     [[nodiscard]] Merging merging() const override { return accumulating_->merging(); }
     void add(std::span<float> state, SampleView samples) const override { accumulating_->add(state, samples); }
+    void add_sources(std::span<float> state, SampleView sources) const override {
+        accumulating_->add_sources(state, sources);
+    }
+    [[nodiscard]] const Encoder& accumulating() const override { return *accumulating_; }
     void merge(std::span<float> state, std::span<const float> other) const override {
         accumulating_->merge(state, other);
     }

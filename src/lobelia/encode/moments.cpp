@@ -16,8 +16,8 @@ using Eigen::MatrixXd;
 
 class MomentEncoder final : public LinearEncoder {
   public:
-    MomentEncoder(std::shared_ptr<const LinearBasis> basis_of, MomentSolver solver, const MomentOptions& options)
-        : LinearEncoder(std::move(basis_of)), solver_(solver), options_(options) {
+    MomentEncoder(const std::shared_ptr<const LinearBasis>& basis_of, MomentSolver solver, const MomentOptions& options)
+        : LinearEncoder(basis_of), solver_(solver), options_(options) {
         const LinearBasis& b = basis();
         if (solver == MomentSolver::projection) {
             double squared = 0;

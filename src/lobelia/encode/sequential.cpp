@@ -13,8 +13,8 @@ namespace {
 /// size() floats.
 class SequentialEncoder : public LinearEncoder {
   public:
-    SequentialEncoder(std::shared_ptr<const LinearBasis> basis_of, Sign sign)
-        : LinearEncoder(std::move(basis_of)), sign_(sign) {}
+    SequentialEncoder(const std::shared_ptr<const LinearBasis>& basis_of, Sign sign)
+        : LinearEncoder(basis_of), sign_(sign) {}
 
     [[nodiscard]] std::size_t state_size() const override { return k_header + arrays() * basis().size(); }
     [[nodiscard]] Merging merging() const override { return Merging::approximate; }

@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "lobelia/math.h"
+#include "lobelia/pack/nearest_whole.h"
 
 namespace lobelia::texels {
 
@@ -24,10 +25,7 @@ inline constexpr float k_largest_rgb9e5 = 65408;
     const auto floor_log2 = [](float v) { return static_cast<int>(std::bit_cast<std::uint32_t>(v) >> 23) - 127; };
     const std::uint32_t exponent = static_cast<std::uint32_t>(std::max(floor_log2(largest), -16) + 16);
     const float steps = std::bit_cast<float>((127 + 24 - exponent) << 23);
-    const auto rounded = [&](float v) {
-        const float above = v * steps + 0.5f;
-        return std::min(static_cast<std::uint32_t>(above), 511u);
-    };
+    const auto rounded = [&](float v) { return std::min(nearest_whole(v * steps), 511u); };
     return rounded(r) | rounded(g) << 9 | rounded(b) << 18 | exponent << 27;
 }
 

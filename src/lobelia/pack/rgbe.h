@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "lobelia/math.h"
+#include "lobelia/pack/nearest_whole.h"
 
 namespace lobelia::texels {
 
@@ -25,10 +26,7 @@ inline constexpr float k_least_rgbe = 0x1p-100f;
     // largest: with the next exponent the other components would be off by as much of a step twice as large.
     const std::uint32_t exponent = (std::bit_cast<std::uint32_t>(largest) >> 23) + 2;
     const float steps = std::bit_cast<float>((127 + 136 - exponent) << 23);
-    const auto rounded = [&](float v) {
-        const float above = v * steps + 0.5f;
-        return std::min(static_cast<std::uint32_t>(above), 255u);
-    };
+    const auto rounded = [&](float v) { return std::min(nearest_whole(v * steps), 255u); };
     return rounded(r) | rounded(g) << 8 | rounded(b) << 16 | exponent << 24;
 }
 

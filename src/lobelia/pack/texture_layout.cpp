@@ -1,6 +1,8 @@
 // Packs and unpacks coefficients as a layout says.
 #include "lobelia/pack/texture_layout.h"
 
+#include <algorithm>
+
 #include <array>
 #include <cmath>
 
@@ -221,6 +223,12 @@ Lead read_lead(const TextureLayout& layout, std::span<const PackedTexture> packe
 }
 
 }  // namespace
+
+bool shares_texels(const TextureLayout& layout) {
+    return std::any_of(layout.textures.begin(), layout.textures.end(), [](const TextureLayout::Texture& texture) {
+        return texture.subsampling > 1 || info(texture.format).block > 1;
+    });
+}
 
 double bytes_per_texel(const TextureLayout& layout) {
     double bytes = 0;

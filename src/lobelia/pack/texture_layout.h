@@ -37,6 +37,9 @@ struct TextureLayout {
     std::vector<Texture> textures;  ///< the leading coefficient before what is a ratio to it
 };
 
+/// Whether what is read at a texel depends on its neighbours, too: blocks and sub-sampled textures.
+[[nodiscard]] bool shares_texels(const TextureLayout& layout);
+
 /// Bytes for one texel, blocks and sub-sampled textures shared out.
 [[nodiscard]] double bytes_per_texel(const TextureLayout& layout);
 

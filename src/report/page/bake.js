@@ -12,13 +12,14 @@ function build_bake_header() {
 /// Statistics as [figure, unit, name, explanation, whether it deserves attention].
 function statistics_tiles(s) {
     const baked = Number.isFinite(s.codec_error);
+    const adaptive = bake.settings?.some(([name]) => name === "target error");
     return [
         [figure_text(s.rays / s.seconds / 1e6), "Mray/s", "Speed", `${figure_text(s.rays / 1e6)} million rays in ${figure_text(s.seconds)} s`],
-        [count_text(s.texels), "", "Texels", `${count_text(s.samples)} samples each${s.least_samples < s.samples ? " at most" : ""}`],
+        [count_text(s.texels), "", "Texels", `${count_text(s.samples)} samples each${adaptive ? " at most" : ""}`],
         [share_text(s.mean_error), "%", "Standard error", "of E at a texel, over the mean E, before denoising", s.mean_error > 0.1],
         baked && [share_text(s.codec_error), "%", "Codec error", "of E by the codec against E by the paths, RMS over the mean E"],
         [share_text(s.back_face_share), "%", "Leaks", "of paths met the back of a one-sided surface first", s.back_face_share > 0.01],
-        [share_text(s.invalid_texels / s.texels), "%", "Invalid texels", `${count_text(s.invalid_texels)} see mostly backs`, s.invalid_texels > 0.02 * s.texels],
+        [share_text(s.invalid_texels / s.texels), "%", "Invalid texels", `${count_text(s.invalid_texels)} see mostly backs, ${count_text(s.buried_texels)} of them lie under something`, s.invalid_texels - s.buried_texels > 0.02 * s.texels],
         baked && [share_text(s.negative_share), "%", "Negative", "of the codec's E, about each normal, lie below 0", s.negative_share > 0.01],
         baked && [share_text(s.ringing), "%", "Ringing", "sum of what is below 0, over the sum of E", s.ringing > 0.01],
     ].filter(Boolean);
@@ -103,6 +104,7 @@ build_bake_header();
 build_tiles();
 build_views();
 build_pages();
+build_probes();
 build_objects();
 build_preflight();
 connect_toolbar();

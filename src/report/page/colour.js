@@ -23,7 +23,7 @@ const gain = () => automatic_gain * 2 ** view.exposure;
 const tone_curves = {
     clamp: (x) => Math.min(x, 1),
     reinhard: (x) => x / (1 + x),
-    filmic: (x) => Math.min((x * (2.51 * x + 0.03)) / (x * (2.43 * x + 0.59) + 0.14), 1), // Narkowicz 2015, fits ACES
+    filmic: (x) => Math.min((x * (2.51 * x + 0.03)) / (x * (2.43 * x + 0.59) + 0.14), 1), // Narkowicz 2016, fits ACES
 };
 
 /// sRGB codes of 2^16 linear steps: rounding to a step moves a result by less than 1/19 of a code, where the curve is
