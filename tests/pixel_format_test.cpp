@@ -184,7 +184,9 @@ TEST(PixelFormats, LogluvIsItsPlainFormButForRounding) {
 TEST(PixelFormats, KnownTexels) {
     EXPECT_EQ(texels::rgb9e5_from({1, 0.5f, 0}), 0x80010100u);  // 256, 128, 0 times 2^(16 - 24)
     EXPECT_EQ(texels::rgb9e5_from({65408, 65408, 65408}), 0xffffffffu);
-    EXPECT_EQ(texels::rgb9e5_from({511.75f, 0, 0}), texels::rgb9e5_from({512, 0, 0}));  // rounds into the next exponent
+    // What would round into the next exponent stays below, and leaves the others their precision.
+    EXPECT_EQ(texels::rgb9e5_from({511.75f, 1, 0}), texels::rgb9e5_from({511, 1, 0}));
+    EXPECT_EQ(texels::rgbe_from({255.75f, 1, 0}), texels::rgbe_from({255, 1, 0}));
     EXPECT_EQ(texels::rgbe_from({1, 0.5f, 0}), 0x81004080u);  // 128, 64, 0 times 2^(129 - 136)
     EXPECT_EQ(texels::rgbm_from({1, 0.5f, 0}), 0xff0080ffu);
     EXPECT_EQ(texels::rgbm_from({0.5f, 0.5f, 0.5f}), 0x80fefefeu);

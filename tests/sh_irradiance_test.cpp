@@ -139,6 +139,43 @@ TEST(Dering, IrradianceIsNowhereNegativeAndDampedNoMoreThanThat) {
     }
 }
 
+TEST(Dering, AnyLightsAreLiftedToZeroByTheLeastWindow) {
+    const SphereRule rule = product_rule(Domain::sphere, 64);
+    for (std::size_t degree = 1; degree <= 4; ++degree)
+        for (std::uint32_t seed = 0; seed < 8; ++seed) {
+            // Three lights of random colours and a little of everything.
+            std::mt19937 generator(seed);
+            const auto uniform = [&] { return static_cast<float>(generator()) * 0x1p-32f; };
+            auto c = light_and_constant(degree, {0, 0, 1}, 0, 0.02f);
+            for (int light = 0; light < 3; ++light) {
+                const Vec3 d = normalize(Vec3{uniform() - 0.5f, uniform() - 0.5f, uniform() - 0.5f});
+                const auto one = light_and_constant(degree, d, 1, 0);
+                const Rgb colour{uniform(), uniform(), uniform()};
+                for (std::size_t i = 0; i < c.size(); ++i)
+                    c[i] = c[i] + Rgb{one[i].r * colour.r, one[i].g * colour.g, one[i].b * colour.b};
+            }
+            const auto lowest = [&](double window) {
+                Colours E(rule.directions.size());
+                const auto factors = dering_window(degree, window);
+                auto damped = c;
+                for (std::size_t l = 0; l <= degree; ++l)
+                    for (std::size_t i = l * l; i < (l + 1) * (l + 1); ++i)
+                        damped[i] = damped[i] * static_cast<float>(factors[l] * harmonics::clamped_cosine(l));
+                harmonics::Harmonics(degree).sum(damped, rule.directions, E);
+                return std::min<double>(test::least(E), least_value(degree, damped));
+            };
+            const double w = sufficient_window(degree, c);
+            EXPECT_GE(lowest(w), -1e-5) << degree << " " << seed;
+            if (std::isfinite(w)) {
+                EXPECT_LT(lowest(1.002 * w), 1e-6) << degree << " " << seed;
+            }
+            // The evaluator's own E, before it is clamped.
+            Colours E(rule.directions.size());
+            sh_evaluator("dering", degree)->signed_irradiance(c, rule.directions, E);
+            EXPECT_GE(test::least(E), -1e-5) << degree << " " << seed;
+        }
+}
+
 TEST(Dering, LeavesAloneWhatDoesNotRing) {
     for (std::size_t degree = 1; degree <= 4; ++degree) {
         const auto c = light_and_constant(degree, {0, 0, 1}, 0.1f, 1);

@@ -54,6 +54,28 @@ std::vector<std::pair<std::string, CoefficientTraits>> all_traits() {
 
 enum class Texture { smooth, noisy };
 
+TEST(SharedExponents, KeepTheirBoundWhereTheLargestComponentIsAboutToDouble) {
+    // The largest a little below a power of two, the others at every place between two steps.
+    const CoefficientTraits traits{1, true, true, {}};
+    for (const char* name : {"rgb9e5", "rgbe"}) {
+        const Storage& storage = *find_storage(name).value();
+        Page page(64, 64, 1), allowed = page;
+        for (std::size_t i = 0; i < page.size(); ++i) {
+            page[0][i] = 2 - 0x1p-13f * static_cast<float>(i % 64);
+            page[1][i] = 1 + 0x1p-13f * static_cast<float>(i / 64);
+            page[2][i] = 0x1p-14f * static_cast<float>(i);
+        }
+        const Page back = page.through(storage.layout(traits));
+        allowed_error(storage, traits, std::as_const(page).view(), allowed.view());
+        double used = 0;
+        for (std::size_t p = 0; p < 3; ++p)
+            for (std::size_t i = 0; i < page.size(); ++i)
+                used = std::max(used, std::abs(static_cast<double>(back[p][i]) - page[p][i]) / allowed[p][i]);
+        EXPECT_LE(used, 1 + 1e-6) << name;
+        EXPECT_GE(used, 0.98) << name;
+    }
+}
+
 /// Coefficients that obey the traits, over many magnitudes, often at the edge of what is allowed.
 Page random_page(const CoefficientTraits& traits, std::size_t width, std::size_t height, std::uint32_t seed,
                  Texture texture) {

@@ -1,6 +1,9 @@
 // Real spherical harmonics: normalised Legendre recurrences times the powers (x + iy)^m, and their rotation.
 #include "lobelia/harmonics.h"
 
+#include <algorithm>
+#include <type_traits>
+
 #include "lobelia/quadrature.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -16,19 +19,22 @@ namespace hn = hwy::HWY_NAMESPACE;
 using lobelia::HWY_NAMESPACE::D;
 using lobelia::HWY_NAMESPACE::V;
 
-/// Calls `visit(i, value)` for the harmonics at the directions from entry j on; `table` holds for each order m its
-/// first value Q_m^m, then a pair (a, a b) for each l > m, with Q_l = a z Q_{l-1} - a b Q_{l-2}.
-template <class Visit>
+/// Calls `visit(i, value)` for the harmonics of the bands that are `wanted`, at the directions from entry j on; `table`
+/// holds for each order m its first value Q_m^m, then a pair (a, a b) for each l > m, with Q_l = a z Q_{l-1} - a b
+/// Q_{l-2}.
+template <class Wanted, class Visit>
 HWY_INLINE void for_each_harmonic(std::size_t degree, const float* table, DirectionView block, std::size_t j,
-                                  const Visit& visit) {
+                                  const Wanted& wanted, const Visit& visit) {
     const D d;
     const auto [x, y, z] = lobelia::HWY_NAMESPACE::load(d, block, j);
     V cosine = hn::Set(d, 1.0f), sine = hn::Zero(d);
     for (std::size_t m = 0; m <= degree; ++m) {
         V q = hn::Set(d, *table++), previous = hn::Zero(d);
         for (std::size_t l = m; l <= degree; ++l) {
-            visit(l * l + l + m, hn::Mul(q, cosine));
-            if (m > 0) visit(l * l + l - m, hn::Mul(q, sine));
+            if (wanted(l)) {
+                visit(l * l + l + m, hn::Mul(q, cosine));
+                if (m > 0) visit(l * l + l - m, hn::Mul(q, sine));
+            }
             if (l == degree) break;
             const V next = hn::NegMulAdd(hn::Set(d, table[1]), previous, hn::Mul(hn::Mul(hn::Set(d, table[0]), z), q));
             table += 2;
@@ -42,19 +48,23 @@ HWY_INLINE void for_each_harmonic(std::size_t degree, const float* table, Direct
     }
 }
 
+constexpr auto k_every_band = [](std::size_t) { return true; };
+
 void Values(std::size_t degree, const float* table, DirectionView block, float* rows) {
     const D d;
     for (std::size_t j = 0; j < block.size; j += hn::Lanes(d))
-        for_each_harmonic(degree, table, block, j,
+        for_each_harmonic(degree, table, block, j, k_every_band,
                           [&](std::size_t i, V value) HWY_ATTR { hn::StoreU(value, d, rows + i * k_block_size + j); });
 }
 
-template <std::size_t degree>
-void sum(const float* table, const Rgb* c, DirectionView directions, MutableColourView out) {
+/// `degree` is a number, or a constant so that all is unrolled.
+template <class Degree, class Wanted>
+void sum(Degree degree, const Wanted& wanted, const float* table, const Rgb* c, DirectionView directions,
+         MutableColourView out) {
     const D d;
     for (std::size_t j = 0; j < directions.size; j += hn::Lanes(d)) {
         V r = hn::Zero(d), g = r, b = r;
-        for_each_harmonic(degree, table, directions, j, [&](std::size_t i, V value) HWY_ATTR {
+        for_each_harmonic(degree, table, directions, j, wanted, [&](std::size_t i, V value) HWY_ATTR {
             r = hn::MulAdd(hn::Set(d, c[i].r), value, r);
             g = hn::MulAdd(hn::Set(d, c[i].g), value, g);
             b = hn::MulAdd(hn::Set(d, c[i].b), value, b);
@@ -65,19 +75,30 @@ void sum(const float* table, const Rgb* c, DirectionView directions, MutableColo
     }
 }
 
+template <std::size_t degree>
+void sum_unrolled(const float* table, const Rgb* c, DirectionView directions, MutableColourView out) {
+    sum(std::integral_constant<std::size_t, degree>(), k_every_band, table, c, directions, out);
+}
+
 void Sum(std::size_t degree, const float* table, const Rgb* c, DirectionView directions, MutableColourView out) {
     switch (degree) {
         case 1:
-            return sum<1>(table, c, directions, out);
+            return sum_unrolled<1>(table, c, directions, out);
         case 2:
-            return sum<2>(table, c, directions, out);
+            return sum_unrolled<2>(table, c, directions, out);
         case 3:
-            return sum<3>(table, c, directions, out);
+            return sum_unrolled<3>(table, c, directions, out);
         case 4:
-            return sum<4>(table, c, directions, out);
+            return sum_unrolled<4>(table, c, directions, out);
         default:
-            return;
+            break;
     }
+    // Irradiance has no odd bands beyond the first: leave out what is 0 everywhere.
+    std::vector<char> lit(degree + 1);
+    for (std::size_t l = 0; l <= degree; ++l)
+        lit[l] = std::any_of(c + l * l, c + (l + 1) * (l + 1), [](Rgb v) { return v != Rgb{}; }) ? 1 : 0;
+    sum(
+        degree, [&](std::size_t l) { return lit[l] != 0; }, table, c, directions, out);
 }
 
 }  // namespace lobelia::harmonics::HWY_NAMESPACE
@@ -124,9 +145,6 @@ void Harmonics::values(DirectionView block, float* rows) const {
 
 void Harmonics::sum(std::span<const Rgb> c, DirectionView directions, MutableColourView out) const {
     assert(c.size() == size() && directions.size == out.size);
-    // The rows of higher degrees are many, and adding them up by blocks is as fast.
-    constexpr std::size_t highest_in_registers = 4;
-    if (degree_ == 0 || degree_ > highest_in_registers) return evaluate(*this, c, directions, out);
     HWY_DYNAMIC_DISPATCH(Sum)(degree_, table_.data(), c.data(), directions, out);
 }
 

@@ -22,7 +22,7 @@ class Harmonics final : public FunctionSet {
     [[nodiscard]] std::size_t degree() const { return degree_; }
     [[nodiscard]] std::size_t size() const override { return coefficient_count(degree_); }
     void values(DirectionView block, float* rows) const override;
-    /// out_j = sum_i c_i Y_i(direction j), as evaluate() does; low degrees without a table in between.
+    /// out_j = sum_i c_i Y_i(direction j), as evaluate() does, but without a table; bands of zeros cost little.
     void sum(std::span<const Rgb> c, DirectionView directions, MutableColourView out) const;
 
   private:

@@ -1,6 +1,8 @@
 // Quadrature rules by Newton's method on Legendre polynomials, and inner products of function sets over them.
 #include "lobelia/quadrature.h"
 
+#include <Eigen/Dense>
+
 #include "lobelia/basis.h"
 
 namespace lobelia {
@@ -33,13 +35,18 @@ SphereRule product_rule(Domain domain, std::size_t heights) {
     const std::size_t azimuths = 2 * heights;
     SphereRule rule{Directions(heights * azimuths), {}};
     rule.weights.reserve(heights * azimuths);
+    std::vector<double> cosines, sines;
+    for (std::size_t j = 0; j < azimuths; ++j) {
+        const double phi = 2 * k_pi * (static_cast<double>(j) + 0.5) / static_cast<double>(azimuths);
+        cosines.push_back(std::cos(phi));
+        sines.push_back(std::sin(phi));
+    }
     for (std::size_t i = 0; i < heights; ++i)
         for (std::size_t j = 0; j < azimuths; ++j) {
             const double z = z_rule.nodes[i], r = std::sqrt(1 - z * z);
-            const double phi = 2 * k_pi * (static_cast<double>(j) + 0.5) / static_cast<double>(azimuths);
-            set_entry(rule.directions.view(), i * azimuths + j,
-                      Vec3{static_cast<float>(r * std::cos(phi)), static_cast<float>(r * std::sin(phi)),
-                           static_cast<float>(z)});
+            set_entry(
+                rule.directions.view(), i * azimuths + j,
+                Vec3{static_cast<float>(r * cosines[j]), static_cast<float>(r * sines[j]), static_cast<float>(z)});
             rule.weights.push_back(z_rule.weights[i] * 2 * k_pi / static_cast<double>(azimuths));
         }
     return rule;
@@ -72,19 +79,25 @@ std::vector<double> integrals_of_squares(const FunctionSet& f, const SphereRule&
 }
 
 std::vector<double> inner_products(const FunctionSet& f, const FunctionSet& g, const SphereRule& rule) {
+    // A product of matrices for each block: weighted values of f times values of g.
+    using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+    const auto f_count = static_cast<Eigen::Index>(f.size()), g_count = static_cast<Eigen::Index>(g.size());
     std::vector<double> result(f.size() * g.size());
+    Eigen::Map<Rows> products(result.data(), f_count, g_count);
     std::vector<float> f_rows(f.size() * k_block_size), g_rows(g.size() * k_block_size);
+    const auto block_of = [](const std::vector<float>& rows, Eigen::Index count, std::size_t size) {
+        using Floats = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+        const Eigen::Map<const Floats> all(rows.data(), count, static_cast<Eigen::Index>(k_block_size));
+        return all.leftCols(static_cast<Eigen::Index>(size)).cast<double>().eval();
+    };
     for_each_part(rule.directions.view(), k_block_size, [&](DirectionView block, std::size_t begin) {
         f.values(block, f_rows.data());
         g.values(block, g_rows.data());
-        for (std::size_t i = 0; i < f.size(); ++i)
-            for (std::size_t k = 0; k < g.size(); ++k) {
-                double sum = 0;
-                for (std::size_t j = 0; j < block.size; ++j)
-                    sum += rule.weights[begin + j] * static_cast<double>(f_rows[i * k_block_size + j]) *
-                           static_cast<double>(g_rows[k * k_block_size + j]);
-                result[i * g.size() + k] += sum;
-            }
+        const Eigen::Map<const Eigen::VectorXd> weights(rule.weights.data() + begin,
+                                                        static_cast<Eigen::Index>(block.size));
+        Rows weighted = block_of(f_rows, f_count, block.size);
+        weighted *= weights.asDiagonal();
+        products.noalias() += weighted * block_of(g_rows, g_count, block.size).transpose();
     });
     return result;
 }

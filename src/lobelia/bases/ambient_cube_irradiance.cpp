@@ -5,16 +5,51 @@
 #include "lobelia/bases/spherical_harmonics.h"
 #include "lobelia/encode/least_squares.h"
 
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "lobelia/bases/ambient_cube_irradiance.cpp"
+#include <hwy/foreach_target.h>  // NOLINT: must precede highway.h
+#include <hwy/highway.h>
+// NOLINTNEXTLINE: after highway.h
+#include "lobelia/lanes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lobelia::HWY_NAMESPACE {
+
+/// out = scale times the sum over three axes of (n . axis)^2 times the colour of the side that n faces.
+void SidesRows(const Rgb* c, const Rotation& cube, float scale, DirectionView normals, MutableColourView out) {
+    const D d;
+    for (std::size_t j = 0; j < normals.size; j += hn::Lanes(d)) {
+        const Lanes3 n = load(d, normals, j);
+        V r = hn::Zero(d), g = r, b = r;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const V along = dot(d, cube[i], n), squared = hn::Mul(along, along);
+            const auto back = hn::Lt(along, hn::Zero(d));
+            const auto side = [&](float front_colour, float back_colour) HWY_ATTR {
+                return hn::IfThenElse(back, hn::Set(d, scale * back_colour), hn::Set(d, scale * front_colour));
+            };
+            r = hn::MulAdd(squared, side(c[2 * i].r, c[2 * i + 1].r), r);
+            g = hn::MulAdd(squared, side(c[2 * i].g, c[2 * i + 1].g), g);
+            b = hn::MulAdd(squared, side(c[2 * i].b, c[2 * i + 1].b), b);
+        }
+        store(d, r, out.channel(0), j, out.size);
+        store(d, g, out.channel(1), j, out.size);
+        store(d, b, out.channel(2), j, out.size);
+    }
+}
+
+}  // namespace lobelia::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
 namespace lobelia {
+
+HWY_EXPORT(SidesRows);
+
 namespace {
 
-void read(std::span<const Rgb> c, const Rotation& cube, float scale, DirectionView normals, MutableColourView out) {
-    for (std::size_t j = 0; j < normals.size; ++j) {
-        const Vec3 n = rotate(cube, direction_at(normals, j));
-        const Rgb sum =
-            c[n.x < 0 ? 1 : 0] * (n.x * n.x) + c[n.y < 0 ? 3 : 2] * (n.y * n.y) + c[n.z < 0 ? 5 : 4] * (n.z * n.z);
-        set_entry(out, j, sum * scale);
-    }
+void read_sides(std::span<const Rgb> c, const Rotation& cube, float scale, DirectionView normals,
+                MutableColourView out) {
+    HWY_DYNAMIC_DISPATCH(SidesRows)(c.data(), cube, scale, normals, out);
 }
 
 class Squares final : public Evaluator {
@@ -25,7 +60,7 @@ class Squares final : public Evaluator {
         return {"everywhere", "no error: it is what the coefficients mean", Reading::of_its_own, 1e-5};
     }
     void signed_irradiance(std::span<const Rgb> c, DirectionView normals, MutableColourView out) const override {
-        read(c, cube_from_domain_, 1, normals, out);
+        read_sides(c, cube_from_domain_, 1, normals, out);
     }
 
   private:
@@ -67,7 +102,7 @@ void AmbientCubeIrradiance::fit(std::span<const Rgb> accumulated, std::span<Rgb>
 }
 
 void AmbientCubeIrradiance::radiance(std::span<const Rgb> c, DirectionView directions, MutableColourView out) const {
-    read(c, cube_from_domain_, k_over_pi, directions, out);
+    read_sides(c, cube_from_domain_, k_over_pi, directions, out);
 }
 
 std::string AmbientCubeIrradiance::description() const {
@@ -92,3 +127,4 @@ Basis::Rotated AmbientCubeIrradiance::rotated(const Rotation& r, std::span<const
 }
 
 }  // namespace lobelia
+#endif

@@ -153,7 +153,7 @@ constexpr std::size_t k_degree = 8;
 struct Tables {
     Eigen::MatrixXd products;             ///< 48 x 48, of all functions
     std::vector<double> integrals;        ///< 48
-    Eigen::MatrixXd harmonics;            ///< 48 x 81
+    std::vector<float> irradiance;        ///< 48 x 81, row by row: harmonics of what each function gives
     Eigen::MatrixXd linear_from_patches;  ///< 12 x 36: the nearest linear function
     Tables() {
         const DiceFunctions functions;
@@ -162,7 +162,10 @@ struct Tables {
         products = as_matrix(inner_products(functions, functions, rule), n);
         integrals = lobelia::integrals(functions, rule);
         const lobelia::harmonics::Harmonics set(k_degree);
-        harmonics = as_matrix(inner_products(functions, set, rule), set.size());
+        for (const double coefficient : inner_products(functions, set, rule)) {
+            const auto band = static_cast<std::size_t>(std::sqrt(static_cast<double>(irradiance.size() % set.size())));
+            irradiance.push_back(static_cast<float>(harmonics::clamped_cosine(band) * coefficient));
+        }
         linear_from_patches = products.bottomRightCorner<12, 12>().ldlt().solve(products.bottomLeftCorner<12, 36>());
     }
 };
@@ -224,13 +227,10 @@ class DiceConvolution final : public Evaluator {
   private:
     /// Adds the irradiance of functions from `first` on.
     static void add(std::span<const Rgb> c, std::size_t first, std::span<Rgb> e) {
-        const Eigen::MatrixXd& table = tables().harmonics;
-        for (std::size_t l = 0; l <= k_degree; ++l)
-            for (std::size_t i = l * l; i < (l + 1) * (l + 1); ++i)
-                for (std::size_t k = 0; k < c.size(); ++k)
-                    e[i] = e[i] + c[k] * static_cast<float>(
-                                             harmonics::clamped_cosine(l) *
-                                             table(static_cast<Eigen::Index>(first + k), static_cast<Eigen::Index>(i)));
+        for (std::size_t k = 0; k < c.size(); ++k) {
+            const float* row = tables().irradiance.data() + (first + k) * e.size();
+            for (std::size_t i = 0; i < e.size(); ++i) e[i] = e[i] + c[k] * row[i];
+        }
     }
 
     harmonics::Harmonics harmonics_{k_degree};

@@ -31,6 +31,20 @@ void PolynomialRow(const Vec3& axis, const float* k, float low, DirectionView bl
     }
 }
 
+/// Divides `count` rows by their sum.
+void NormaliseRows(float* rows, std::size_t count, std::size_t size) {
+    const D d;
+    for (std::size_t j = 0; j < size; j += hn::Lanes(d)) {
+        V sum = hn::Zero(d);
+        for (std::size_t i = 0; i < count; ++i) sum = hn::Add(sum, hn::LoadU(d, rows + i * k_block_size + j));
+        const V factor = hn::Div(hn::Set(d, 1.0f), hn::Max(sum, hn::Set(d, 1e-6f)));
+        for (std::size_t i = 0; i < count; ++i) {
+            float* row = rows + i * k_block_size + j;
+            hn::StoreU(hn::Mul(hn::LoadU(d, row), factor), d, row);
+        }
+    }
+}
+
 }  // namespace lobelia::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -38,6 +52,7 @@ HWY_AFTER_NAMESPACE();
 namespace lobelia {
 
 HWY_EXPORT(PolynomialRow);
+HWY_EXPORT(NormaliseRows);
 
 namespace {
 
@@ -106,15 +121,29 @@ class ExactCosineLobes final : public LinearEvaluator {
     std::vector<Vec3> axes_;
 };
 
+/// Squared cosines of the axes that a direction faces, over their sum.
+class Shares final : public FunctionSet {
+  public:
+    explicit Shares(std::vector<Vec3> axes) : axes_(std::move(axes)) {}
+    [[nodiscard]] std::size_t size() const override { return axes_.size(); }
+    void values(DirectionView block, float* rows) const override {
+        fill_rows(axes_, {0, 0, 1, 0, 0}, 0, block, rows);
+        HWY_DYNAMIC_DISPATCH(NormaliseRows)(rows, size(), block.size);
+    }
+
+  private:
+    std::vector<Vec3> axes_;
+};
+
 /// E at the axes, and between them by the squared cosines of those that the normal faces, which sum to 1.
 class SquaredCosines final : public LinearEvaluator {
   public:
-    SquaredCosines(CosineLobe lobe, std::vector<Vec3> axes, double furnace)
-        : axes_(std::move(axes)), at_axes_(axes_.size() * axes_.size()), furnace_(furnace) {
+    SquaredCosines(CosineLobe lobe, const std::vector<Vec3>& axes, double furnace)
+        : shares_(axes), at_axes_(axes.size() * axes.size()), furnace_(furnace) {
         const Coefficients k = irradiance_polynomial(lobe);
         for (std::size_t i = 0; i < size(); ++i)
             for (std::size_t j = 0; j < size(); ++j) {
-                const float c = dot(axes_[i], axes_[j]);
+                const float c = dot(axes[i], axes[j]);
                 at_axes_[i * size() + j] = k[0] + c * (k[1] + c * (k[2] + c * (k[3] + c * k[4])));
             }
     }
@@ -122,21 +151,22 @@ class SquaredCosines final : public LinearEvaluator {
     [[nodiscard]] Accuracy accuracy() const override {
         return {"everywhere", "no error: it is a model", Reading::of_its_own, furnace_};
     }
-    [[nodiscard]] std::size_t size() const override { return axes_.size(); }
+    [[nodiscard]] std::size_t size() const override { return shares_.size(); }
     void values(DirectionView block, float* rows) const override {
-        const auto squares = std::make_unique_for_overwrite<float[]>(size() * k_block_size);
-        fill_rows(axes_, {0, 0, 1, 0, 0}, 0, block, squares.get());
-        std::array<float, k_block_size> sums{};
+        const auto shares = std::make_unique_for_overwrite<float[]>(size() * k_block_size);
+        shares_.values(block, shares.get());
+        kernels::transform_rows(shares.get(), size(), at_axes_.data(), block.size, rows);
+    }
+    void signed_irradiance(std::span<const Rgb> c, DirectionView normals, MutableColourView out) const override {
+        // The irradiances at the axes once, then their mean at each normal.
+        std::vector<Rgb> at_axes(size());
         for (std::size_t i = 0; i < size(); ++i)
-            for (std::size_t j = 0; j < block.size; ++j) sums[j] += squares[i * k_block_size + j];
-        for (std::size_t j = 0; j < block.size; ++j) sums[j] = 1 / std::max(sums[j], 1e-6f);
-        for (std::size_t i = 0; i < size(); ++i)
-            for (std::size_t j = 0; j < block.size; ++j) squares[i * k_block_size + j] *= sums[j];
-        kernels::transform_rows(squares.get(), size(), at_axes_.data(), block.size, rows);
+            for (std::size_t j = 0; j < size(); ++j) at_axes[j] = at_axes[j] + c[i] * at_axes_[i * size() + j];
+        evaluate(shares_, at_axes, normals, out);
     }
 
   private:
-    std::vector<Vec3> axes_;
+    Shares shares_;
     std::vector<float> at_axes_;  ///< irradiance of function i at axis j
     double furnace_;
 };

@@ -29,12 +29,12 @@ Sum sum_of(const Lobe& a, const Lobe& b) {
     return s;
 }
 
-/// e^-x I_0(x), x >= 0: the library's series, then Hankel's asymptotic one where that would overflow.
-double scaled_bessel_i0(double x) {
-    if (x < 40) return std::exp(-x) * std::cyl_bessel_i(0.0, x);
+/// e^-x I_n(x), x >= 0: the library's series, then Hankel's asymptotic one where that would overflow.
+double scaled_bessel_i(int n, double x) {
+    if (x < 40) return std::exp(-x) * std::cyl_bessel_i(static_cast<double>(n), x);
     double term = 1, sum = 1;
     for (int k = 1; k < 16; ++k) {
-        term *= (2.0 * k - 1) * (2.0 * k - 1) / (8.0 * k * x);
+        term *= ((2.0 * k - 1) * (2.0 * k - 1) - 4.0 * n * n) / (8.0 * k * x);
         sum += term;
     }
     return sum / std::sqrt(2 * k_pi * x);
@@ -58,7 +58,7 @@ double hemisphere_quadrature(double sharpness, double cosine, const Weight& weig
             const double alpha = centre + half * rule.nodes[i];
             const double chord = std::sin((alpha - beta) / 2);
             const double lobe = std::exp(-2 * sharpness * chord * chord) *
-                                scaled_bessel_i0(sharpness * std::sin(alpha) * std::sin(beta));
+                                scaled_bessel_i(0, sharpness * std::sin(alpha) * std::sin(beta));
             sum += half * rule.weights[i] * lobe * std::sin(alpha) * weight(std::cos(alpha));
         }
     }
@@ -133,13 +133,18 @@ std::vector<double> irradiance_series(double sharpness, double tolerance) {
     for (std::size_t l = last; l >= 1; --l)
         ratio[l] = sharpness / (static_cast<double>(2 * l + 1) + sharpness * ratio[l + 1]);
 
+    // A_l of the clamped cosine goes from one even l to the next by the factor (1 - l) / (l + 4).
     std::vector<double> series;
-    double product = 1;
+    const double scale = integral(sharpness) / (4 * k_pi);
+    double product = 1, even = harmonics::clamped_cosine(2);
     for (std::size_t l = 0; l <= last; ++l) {
         if (l > 0) product *= ratio[l];
-        const double term = static_cast<double>(2 * l + 1) / (4 * k_pi) * harmonics::clamped_cosine(l) * product;
-        if (l > 2 && l % 2 == 0 && std::abs(term) < tolerance) break;
-        series.push_back(integral(sharpness) * term);
+        const auto n = static_cast<double>(l);
+        const double cosine = l < 2 ? harmonics::clamped_cosine(l) : l % 2 == 0 ? even : 0;
+        const double term = (2 * n + 1) * cosine * product;
+        if (l > 2 && l % 2 == 0 && std::abs(term) < 4 * k_pi * tolerance) break;
+        if (l >= 2 && l % 2 == 0) even *= (1 - n) / (n + 4);
+        series.push_back(scale * term);
     }
     return series;
 }
@@ -155,7 +160,14 @@ double zonal_sum(const std::vector<double>& series, double c) {
     return b1;
 }
 
-double irradiance(double sharpness, double c) { return zonal_sum(irradiance_series(sharpness), c); }
+double irradiance(double sharpness, double c) {
+    // In closed form at the pole, opposite and across; below sharpness 1 that would cancel.
+    const double s = sharpness, e = std::exp(-s);
+    if (s >= 1 && c == 1) return 2 * k_pi * (s - 1 + e) / (s * s);
+    if (s >= 1 && c == -1) return 2 * k_pi * e * (1 - e * (1 + s)) / (s * s);
+    if (s >= 1 && c == 0) return 2 * k_pi * scaled_bessel_i(1, s) / s;
+    return zonal_sum(irradiance_series(sharpness), c);
+}
 
 double irradiance_by_quadrature(double sharpness, double c) {
     return hemisphere_quadrature(sharpness, c, [](double cosine) { return cosine; });

@@ -3,6 +3,7 @@
 
 #include <Eigen/Dense>
 #include <array>
+#include <type_traits>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "lobelia/bases/sg_irradiance.cpp"
@@ -19,6 +20,9 @@ using V = hn::Vec<D>;
 
 // Each formula reads the constants `k` of its lobe and the cosine `c` between normal and axis, and gives E of the unit
 // lobe. What the constants are stands beside the function of the same name in the second half of this file.
+
+/// exp(x), x <= 0, never less than e^-70: products with it stay normal floats, with others a machine is slow.
+HWY_INLINE V decay(D d, V x) { return hn::Exp(d, hn::Max(x, hn::Set(d, -70.0f))); }
 
 struct InnerProduct {
     static HWY_INLINE V eval(D d, std::span<const float> k, V c) {
@@ -88,14 +92,14 @@ struct Tokuyoshi {
         const V t = hn::Div(hn::Set(d, 1.0f), hn::MulAdd(hn::Set(d, 0.5f), z, hn::Set(d, 1.0f)));
         V fit = hn::Set(d, k_fit[0]);
         for (std::size_t i = 1; i < std::size(k_fit); ++i) fit = hn::MulAdd(fit, t, hn::Set(d, k_fit[i]));
-        const V tail = hn::Mul(t, hn::Exp(d, hn::NegMulAdd(z, z, fit)));
+        const V tail = hn::Mul(t, decay(d, hn::NegMulAdd(z, z, fit)));
         return hn::IfThenElse(hn::Lt(x, hn::Zero(d)), hn::Sub(hn::Set(d, 2.0f), tail), tail);
     }
     static HWY_INLINE V eval(D d, std::span<const float> k, V c) {
         const V t = hn::Set(d, k[0]), c2 = hn::Mul(c, c), t2 = hn::Mul(t, t);
         const V smooth = hn::MulAdd(c, erfc(d, hn::Neg(hn::Mul(t, c))), hn::Set(d, k[1]));
         const V gauss =
-            hn::Mul(hn::Exp(d, hn::Neg(hn::Mul(t2, c2))), hn::Expm1(d, hn::Mul(t2, hn::Sub(c2, hn::Set(d, 1.0f)))));
+            hn::Mul(decay(d, hn::Neg(hn::Mul(t2, c2))), hn::Expm1(d, hn::Mul(t2, hn::Sub(c2, hn::Set(d, 1.0f)))));
         const V blend = hn::NegMulAdd(gauss, hn::Set(d, k[2]), hn::Mul(hn::Set(d, 0.5f), smooth));
         return hn::MulAdd(blend, hn::Set(d, k[4]), hn::Set(d, k[3]));
     }
@@ -106,7 +110,7 @@ struct OddExact {
     static HWY_INLINE V eval(D d, std::span<const float> k, V c) {
         const V x = hn::Mul(c, c);
         const V exponent = hn::Mul(hn::Neg(x), hn::MulAdd(hn::Set(d, k[3]), x, hn::Set(d, k[2])));
-        const V even = hn::Sqrt(hn::MulAdd(hn::Set(d, k[1]), hn::Exp(d, exponent), hn::Mul(x, hn::Set(d, k[4]))));
+        const V even = hn::Sqrt(hn::MulAdd(hn::Set(d, k[1]), decay(d, exponent), hn::Mul(x, hn::Set(d, k[4]))));
         return hn::Max(hn::MulAdd(hn::Set(d, k[0]), c, even), hn::Zero(d));
     }
 };
@@ -123,14 +127,24 @@ struct Polynomial {
 /// Clenshaw's sum of a Legendre series; `k` holds the triples (term, (2l + 1) / (l + 1), (l + 1) / (l + 2)).
 struct Exact {
     static HWY_INLINE V eval(D d, std::span<const float> k, V c) {
-        V b1 = hn::Zero(d), b2 = b1;
+        V e[1];
+        eval_many<1>(d, k, &c, e);
+        return e[0];
+    }
+    /// Each step waits for the one before it: several sums side by side fill the wait.
+    template <std::size_t Count>
+    static HWY_INLINE void eval_many(D d, std::span<const float> k, const V* c, V* e) {
+        V b1[Count], b2[Count];
+        for (std::size_t n = 0; n < Count; ++n) b1[n] = b2[n] = hn::Zero(d);
         for (std::size_t i = k.size(); i >= 3; i -= 3) {
-            const V slope = hn::Mul(hn::Set(d, k[i - 2]), c);
-            const V b0 = hn::MulAdd(slope, b1, hn::NegMulAdd(hn::Set(d, k[i - 1]), b2, hn::Set(d, k[i - 3])));
-            b2 = b1;
-            b1 = b0;
+            const V term = hn::Set(d, k[i - 3]), slope = hn::Set(d, k[i - 2]), back = hn::Set(d, k[i - 1]);
+            for (std::size_t n = 0; n < Count; ++n) {
+                const V b0 = hn::MulAdd(hn::Mul(slope, c[n]), b1[n], hn::NegMulAdd(back, b2[n], term));
+                b2[n] = b1[n];
+                b1[n] = b0;
+            }
         }
-        return b1;
+        for (std::size_t n = 0; n < Count; ++n) e[n] = b1[n];
     }
 };
 
@@ -138,12 +152,22 @@ template <class Formula>
 void fill_row(const Vec3& axis, std::span<const float> k, DirectionView block, float* row) {
     const D d;
     const V px = hn::Set(d, axis.x), py = hn::Set(d, axis.y), pz = hn::Set(d, axis.z);
-    for (std::size_t j = 0; j < block.size; j += hn::Lanes(d)) {
-        const V c = hn::MulAdd(
+    const auto cosine = [&](std::size_t j) HWY_ATTR {
+        return hn::MulAdd(
             px, hn::LoadU(d, block.channel(0) + j),
             hn::MulAdd(py, hn::LoadU(d, block.channel(1) + j), hn::Mul(pz, hn::LoadU(d, block.channel(2) + j))));
-        hn::StoreU(Formula::eval(d, k, c), d, row + j);
+    };
+    std::size_t j = 0;
+    if constexpr (std::is_same_v<Formula, Exact>) {
+        constexpr std::size_t count = 4;
+        for (; j + count * hn::Lanes(d) <= block.size; j += count * hn::Lanes(d)) {
+            V c[count], e[count];
+            for (std::size_t n = 0; n < count; ++n) c[n] = cosine(j + n * hn::Lanes(d));
+            Exact::eval_many<count>(d, k, c, e);
+            for (std::size_t n = 0; n < count; ++n) hn::StoreU(e[n], d, row + j + n * hn::Lanes(d));
+        }
     }
+    for (; j < block.size; j += hn::Lanes(d)) hn::StoreU(Formula::eval(d, k, cosine(j)), d, row + j);
 }
 
 void FillRow(SgIrradiance kind, const Vec3& axis, std::span<const float> k, DirectionView block, float* row) {
@@ -214,8 +238,8 @@ double even_part(const std::vector<double>& series, double c) {
 }
 
 Constants odd_exact_constants(double l, double k, double m) {
-    const auto series = gaussian::irradiance_series(l);
-    const double integral = gaussian::integral(l), f0 = even_part(series, 0), f1 = even_part(series, 1);
+    const double integral = gaussian::integral(l), f0 = gaussian::irradiance(l, 0) / integral,
+                 f1 = (gaussian::irradiance(l, 1) + gaussian::irradiance(l, -1)) / (2 * integral);
     const double slope = f1 * f1 - f0 * f0 * std::exp(-k - m);
     return {integral * gaussian::mean_cosine(l) / 2, integral * integral * f0 * f0, k, m, integral * integral * slope};
 }

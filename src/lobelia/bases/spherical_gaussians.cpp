@@ -21,6 +21,7 @@ namespace lobelia::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 /// row = exp(-lambda |s - p|^2 / 2), which keeps its precision at every sharpness, as lambda (s . p - 1) does not.
+/// Below e^-43 it is 0: its square is then a normal float or 0, since with others a machine is slow.
 void GaussianRow(const gaussian::Lobe& lobe, DirectionView block, float* row) {
     const hn::CappedTag<float, k_lanes> d;
     const auto px = hn::Set(d, lobe.axis.x), py = hn::Set(d, lobe.axis.y), pz = hn::Set(d, lobe.axis.z);
@@ -30,7 +31,8 @@ void GaussianRow(const gaussian::Lobe& lobe, DirectionView block, float* row) {
         const auto y = hn::Sub(hn::LoadU(d, block.channel(1) + j), py);
         const auto z = hn::Sub(hn::LoadU(d, block.channel(2) + j), pz);
         const auto squared = hn::MulAdd(x, x, hn::MulAdd(y, y, hn::Mul(z, z)));
-        hn::StoreU(hn::Exp(d, hn::Mul(scale, squared)), d, row + j);
+        const auto exponent = hn::Mul(scale, squared);
+        hn::StoreU(hn::IfThenElseZero(hn::Gt(exponent, hn::Set(d, -43.0f)), hn::Exp(d, exponent)), d, row + j);
     }
 }
 

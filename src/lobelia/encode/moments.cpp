@@ -25,7 +25,7 @@ class MomentEncoder final : public LinearEncoder {
             scale_ = solid_angle(b.domain()) / squared;
         } else if (solver == MomentSolver::analytic_gram) {
             gram_ = as_matrix(b.gram(), b.size());
-            factor_.compute(gram_);
+            if (!is_diagonal(gram_)) factor_.compute(gram_);
         } else if (has_prior()) {
             gram_ = as_matrix(b.gram(), b.size());
             integrals_ = as_matrix(b.integrals(), 1);
@@ -137,6 +137,21 @@ class MomentEncoder final : public LinearEncoder {
         state[k_squared_radiance] += squared_radiance;
     }
 
+    /// Functions that nowhere overlap, and those that are orthogonal, leave nothing to eliminate.
+    static bool is_diagonal(const MatrixXd& gram) { return gram.isDiagonal(0); }
+    /// G^-1 m, `factor` G where that is not diagonal.
+    static MatrixXd solve_with(const MatrixXd& gram, const Eigen::LDLT<MatrixXd>& factor, const MatrixXd& m) {
+        if (!is_diagonal(gram)) return factor.solve(m);
+        // A function that no sample has met has a sum of 0, and gets 0 as from the factors.
+        MatrixXd result = MatrixXd::Zero(m.rows(), m.cols());
+        for (Eigen::Index i = 0; i < m.rows(); ++i)
+            if (gram(i, i) > 0) result.row(i) = m.row(i) / gram(i, i);
+        return result;
+    }
+    static MatrixXd solve_symmetric(const MatrixXd& gram, const MatrixXd& m) {
+        return solve_with(gram, is_diagonal(gram) ? Eigen::LDLT<MatrixXd>() : gram.ldlt(), m);
+    }
+
     [[nodiscard]] MatrixXd sampled_gram(std::span<const float> state, double normalise) const {
         const auto n = static_cast<Eigen::Index>(basis().size());
         const float* next = state.data() + header() + 3 * basis().size();
@@ -153,12 +168,12 @@ class MomentEncoder final : public LinearEncoder {
             case MomentSolver::projection:
                 return scale_ * m;
             case MomentSolver::analytic_gram:
-                return factor_.solve(m);
+                return solve_with(gram_, factor_, m);
             case MomentSolver::sampled_gram:
-                return sampled_gram(state, normalise).ldlt().solve(m);
+                return solve_symmetric(sampled_gram(state, normalise), m);
             case MomentSolver::regularised: {
                 const Blend blend = blended(state, m, normalise);
-                return blend.gram.ldlt().solve(blend.m);
+                return solve_symmetric(blend.gram, blend.m);
             }
             case MomentSolver::non_negative:
                 return solve_non_negative(sampled_gram(state, normalise), m);
@@ -197,7 +212,7 @@ class MomentEncoder final : public LinearEncoder {
         const double w = irradiance > 0 ? options_.irradiance_weight * radiance / irradiance : 0;
         const MatrixXd gram = blend.gram + w * irradiance_->gram;
         const MatrixXd target = blend.m + w * (irradiance_->functions * harmonic);
-        return is_non_negative() ? solve_non_negative(gram, target) : gram.ldlt().solve(target);
+        return is_non_negative() ? solve_non_negative(gram, target) : solve_symmetric(gram, target);
     }
 
     static MatrixXd solve_non_negative(const MatrixXd& gram, const MatrixXd& m) {

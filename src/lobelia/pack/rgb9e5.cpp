@@ -21,7 +21,9 @@ HWY_INLINE V cut(const float* in) {
     const D d;
     return hn::Min(hn::Max(hn::LoadU(d, in), hn::Zero(d)), hn::Set(d, k_largest_rgb9e5));
 }
-HWY_INLINE VI rounded(V v, V steps) { return hn::ConvertTo(I(), hn::Add(hn::Mul(v, steps), hn::Set(D(), 0.5f))); }
+HWY_INLINE VI rounded(V v, V steps) {
+    return hn::Min(hn::ConvertTo(I(), hn::Add(hn::Mul(v, steps), hn::Set(D(), 0.5f))), hn::Set(I(), 511));
+}
 /// 2^(24 - exponent).
 HWY_INLINE V steps_of(VI exponent) {
     return hn::BitCast(D(), hn::ShiftLeft<23>(hn::Sub(hn::Set(I(), 127 + 24), exponent)));
@@ -33,11 +35,9 @@ void EncodeRgb9e5(const float* const* in, std::size_t count, std::int32_t* out) 
         const V r = cut(in[0] + i), g = cut(in[1] + i), b = cut(in[2] + i), largest = hn::Max(hn::Max(r, g), b);
         const VI exponent_field = hn::ShiftRight<23>(hn::BitCast(di, largest));
         const VI exponent = hn::Max(hn::Sub(exponent_field, hn::Set(di, 127 - 16)), hn::Zero(di));
-        const auto overflows = hn::Eq(rounded(largest, steps_of(exponent)), hn::Set(di, 512));
-        const VI raised = hn::Add(exponent, hn::And(hn::VecFromMask(di, overflows), hn::Set(di, 1)));
-        const V steps = steps_of(raised);
+        const V steps = steps_of(exponent);
         const VI rg = hn::Or(rounded(r, steps), hn::ShiftLeft<9>(rounded(g, steps)));
-        const VI be = hn::Or(hn::ShiftLeft<18>(rounded(b, steps)), hn::ShiftLeft<27>(raised));
+        const VI be = hn::Or(hn::ShiftLeft<18>(rounded(b, steps)), hn::ShiftLeft<27>(exponent));
         hn::StoreU(hn::Or(rg, be), di, out + i);
     }
 }

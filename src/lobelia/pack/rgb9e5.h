@@ -19,14 +19,14 @@ inline constexpr float k_largest_rgb9e5 = 65408;
     const auto cut = [](float v) { return std::min(std::max(v, 0.0f), k_largest_rgb9e5); };
     const float r = cut(c.r), g = cut(c.g), b = cut(c.b), largest = std::max({r, g, b});
 
-    // Take the least exponent with which the largest component, rounded, has 9 bits.
+    // Take the least exponent with which the largest component, rounded down, has 9 bits. What would round to 512 stays
+    // at 511, which is off by less than a step of the largest: with the next exponent, which the extension takes, the
+    // other components would be off by as much of a step twice as large.
     const auto floor_log2 = [](float v) { return static_cast<int>(std::bit_cast<std::uint32_t>(v) >> 23) - 127; };
-    std::uint32_t exponent = static_cast<std::uint32_t>(std::max(floor_log2(largest), -16) + 16);
-    const auto steps_of = [](std::uint32_t e) { return std::bit_cast<float>((127 + 24 - e) << 23); };
-    const auto rounded = [](float v, float steps) { return nearest_whole(v * steps); };
-    if (rounded(largest, steps_of(exponent)) == 512) ++exponent;
-    const float steps = steps_of(exponent);
-    return rounded(r, steps) | rounded(g, steps) << 9 | rounded(b, steps) << 18 | exponent << 27;
+    const std::uint32_t exponent = static_cast<std::uint32_t>(std::max(floor_log2(largest), -16) + 16);
+    const float steps = std::bit_cast<float>((127 + 24 - exponent) << 23);
+    const auto rounded = [&](float v) { return std::min(nearest_whole(v * steps), 511u); };
+    return rounded(r) | rounded(g) << 9 | rounded(b) << 18 | exponent << 27;
 }
 
 [[nodiscard]] constexpr Rgb rgb_from_rgb9e5(std::uint32_t packed) {

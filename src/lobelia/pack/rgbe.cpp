@@ -21,7 +21,9 @@ HWY_INLINE V cut(const float* in) {
     const D d;
     return hn::Min(hn::Max(hn::LoadU(d, in), hn::Zero(d)), hn::Set(d, k_largest_rgbe));
 }
-HWY_INLINE VI rounded(V v, V steps) { return hn::ConvertTo(I(), hn::Add(hn::Mul(v, steps), hn::Set(D(), 0.5f))); }
+HWY_INLINE VI rounded(V v, V steps) {
+    return hn::Min(hn::ConvertTo(I(), hn::Add(hn::Mul(v, steps), hn::Set(D(), 0.5f))), hn::Set(I(), 255));
+}
 /// 2^(136 - exponent).
 HWY_INLINE V steps_of(VI exponent) {
     return hn::BitCast(D(), hn::ShiftLeft<23>(hn::Sub(hn::Set(I(), 127 + 136), exponent)));
@@ -32,11 +34,9 @@ void EncodeRgbe(const float* const* in, std::size_t count, std::int32_t* out) {
     for (std::size_t i = 0; i < count; i += hn::Lanes(di)) {
         const V r = cut(in[0] + i), g = cut(in[1] + i), b = cut(in[2] + i), largest = hn::Max(hn::Max(r, g), b);
         const VI exponent = hn::Add(hn::ShiftRight<23>(hn::BitCast(di, largest)), hn::Set(di, 2));
-        const auto overflows = hn::Eq(rounded(largest, steps_of(exponent)), hn::Set(di, 256));
-        const VI raised = hn::Add(exponent, hn::And(hn::VecFromMask(di, overflows), hn::Set(di, 1)));
-        const V steps = steps_of(raised);
+        const V steps = steps_of(exponent);
         const VI rg = hn::Or(rounded(r, steps), hn::ShiftLeft<8>(rounded(g, steps)));
-        const VI be = hn::Or(hn::ShiftLeft<16>(rounded(b, steps)), hn::ShiftLeft<24>(raised));
+        const VI be = hn::Or(hn::ShiftLeft<16>(rounded(b, steps)), hn::ShiftLeft<24>(exponent));
         const auto lit = hn::RebindMask(di, hn::Ge(largest, hn::Set(D(), k_least_rgbe)));
         hn::StoreU(hn::IfThenElseZero(lit, hn::Or(rg, be)), di, out + i);
     }

@@ -22,13 +22,12 @@ inline constexpr float k_least_rgbe = 0x1p-100f;
     const float r = cut(c.r), g = cut(c.g), b = cut(c.b), largest = std::max({r, g, b});
     if (largest < k_least_rgbe) return 0;
 
-    // The largest mantissa is 128 to 255.
-    std::uint32_t exponent = (std::bit_cast<std::uint32_t>(largest) >> 23) + 2;
-    const auto steps_of = [](std::uint32_t e) { return std::bit_cast<float>((127 + 136 - e) << 23); };
-    const auto rounded = [](float v, float steps) { return nearest_whole(v * steps); };
-    if (rounded(largest, steps_of(exponent)) == 256) ++exponent;
-    const float steps = steps_of(exponent);
-    return rounded(r, steps) | rounded(g, steps) << 8 | rounded(b, steps) << 16 | exponent << 24;
+    // The largest mantissa is 128 to 255. What would round to 256 stays at 255, which is off by less than a step of the
+    // largest: with the next exponent the other components would be off by as much of a step twice as large.
+    const std::uint32_t exponent = (std::bit_cast<std::uint32_t>(largest) >> 23) + 2;
+    const float steps = std::bit_cast<float>((127 + 136 - exponent) << 23);
+    const auto rounded = [&](float v) { return std::min(nearest_whole(v * steps), 255u); };
+    return rounded(r) | rounded(g) << 8 | rounded(b) << 16 | exponent << 24;
 }
 
 [[nodiscard]] constexpr Rgb rgb_from_rgbe(std::uint32_t packed) {

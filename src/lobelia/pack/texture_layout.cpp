@@ -152,25 +152,35 @@ PackedTexture pack_texture(const Texture& texture, const CoefficientPlanes& plan
     return packed;
 }
 
+/// Writes each of the first `count` entries twice, from the end.
+void repeat_each(std::span<float> row, std::size_t count) {
+    for (std::size_t x = count; x-- > 0;) row[2 * x] = row[2 * x + 1] = row[x];
+}
+
 /// Puts what a channel of a texture gives back where it belongs. Luma comes before chroma, and both add up.
 void unpack_channel(const StoredChannel& channel, const Texture& texture, const PackedTexture& packed,
                     const float* decoded, const MutableCoefficientPlanes& out) {
     const Shares& shares = shares_of(channel.component);
     const float inverse = 1 / channel.scale;
-    for (std::size_t k = 0; k < 3; ++k) {
-        if (shares.out[k] == 0) continue;
-        const bool adds = channel.component > Component::luma;
-        const float* lead = out.planes[k];
-        float* plane = out.planes[3 * channel.coefficient + k];
-        for (std::size_t y = 0; y < out.height; ++y)
-            for (std::size_t x = 0; x < out.width; ++x) {
-                const std::size_t i = y * out.width + x;
-                const std::size_t from =
-                    texture.subsampling == 1 ? i : y / texture.subsampling * packed.width + x / texture.subsampling;
-                float value = (decoded[from] * packed.scale - channel.offset) * inverse * shares.out[k];
-                if (channel.form == Form::ratio) value *= lead[i];
-                plane[i] = adds ? plane[i] + value : value;
-            }
+    std::vector<float> row(packed.width * texture.subsampling);
+    for (std::size_t y = 0; y < out.height; ++y) {
+        // What the channel gives back along a row of texels.
+        const float* from = decoded + y / texture.subsampling * packed.width;
+        for (std::size_t x = 0; x < packed.width; ++x) row[x] = (from[x] * packed.scale - channel.offset) * inverse;
+        if (texture.subsampling == 2) repeat_each(row, packed.width);
+
+        for (std::size_t k = 0; k < 3; ++k) {
+            const float share = shares.out[k];
+            if (share == 0) continue;
+            const float* lead = out.planes[k] + y * out.width;
+            float* plane = out.planes[3 * channel.coefficient + k] + y * out.width;
+            if (channel.form == Form::ratio)
+                for (std::size_t x = 0; x < out.width; ++x) plane[x] = row[x] * share * lead[x];
+            else if (channel.component > Component::luma)
+                for (std::size_t x = 0; x < out.width; ++x) plane[x] += row[x] * share;
+            else
+                for (std::size_t x = 0; x < out.width; ++x) plane[x] = row[x] * share;
+        }
     }
 }
 
