@@ -188,6 +188,23 @@ TEST(Bake, ShardsThatDoNotMakeAWholeAreRefused) {
     EXPECT_FALSE(merge_shards(*make(closed_box(), options), parts));
 }
 
+TEST(Bake, OneObjectIsOneByItsNameAndHasUVs) {
+    Scene scene = closed_box();
+    BakeOptions options = small_options();
+    const auto error_for = [&](const std::string& name) {
+        options.only_object = name;
+        const auto baker = Baker::make(scene, options);
+        return baker ? std::string() : baker.error().message;
+    };
+    EXPECT_EQ(error_for("ceiling"), "");
+    EXPECT_NE(error_for("cieling").find("did you mean ceiling?"), std::string::npos);
+    scene.objects.push_back(scene.objects[1]);
+    EXPECT_NE(error_for(scene.objects[1].name).find("2 objects are called"), std::string::npos);
+    scene.objects[2].name = "bare";
+    scene.meshes[scene.objects[2].mesh].lightmap_uv.clear();
+    EXPECT_NE(error_for("bare").find("has no lightmap UVs"), std::string::npos);
+}
+
 TEST(Bake, RefusesCheckpointsThatAreNotItsOwn) {
     const Folder folder;
     BakeOptions options = small_options();

@@ -11,7 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The pages' charts and what is wrong with them, as pictures.
+/// The pages' charts and what is wrong with them, as pictures; prints where they are.
 Status write_preflight(const Preflight& checked, const Baker& baker, const fs::path& out) {
     std::vector<std::string> pictures;
     for (std::size_t page = 0; page < checked.pages; ++page) {
@@ -22,7 +22,9 @@ Status write_preflight(const Preflight& checked, const Baker& baker, const fs::p
     std::vector<FileContent> files;
     for (std::size_t page = 0; page < pictures.size(); ++page)
         files.push_back({out / fmt::format("preflight-{}.png", page), pictures[page]});
-    return write_into_folder(out, files);
+    if (auto status = write_into_folder(out, files); !status) return status;
+    for (const FileContent& file : files) fmt::print("{}\n", file.path.string());
+    return Done{};
 }
 
 }  // namespace
@@ -64,9 +66,8 @@ Status preflight_job(const BakeJob& job) {
     if (!baker) return baker.error();
     const Preflight checked =
         preflight_of(**baker, measure_rate((*baker)->atlas(), (*baker)->texels(), (*baker)->tracer()));
-    if (auto status = write_preflight(checked, **baker, job.out); !status) return status;
     fmt::print("{}", to_text(checked, loaded->scene));
-    return Done{};
+    return write_preflight(checked, **baker, job.out);
 }
 
 }  // namespace lobelia::cli

@@ -53,6 +53,20 @@ TexelMap only_of(const TexelMap& map, const World& world, std::uint32_t object) 
     return result;
 }
 
+/// The one object of that name, which must have lightmap UVs.
+Result<std::uint32_t> object_called(const World& world, const std::string& name) {
+    const auto found = std::find(world.names.begin(), world.names.end(), name);
+    if (found == world.names.end())
+        return Error{"no object is called \"" + name + "\"" + nearest_names(name, world.names)};
+    if (const auto count = std::count(found, world.names.end(), name); count > 1)
+        return Error{
+            fmt::format("{} objects are called \"{}\"; only a name of its own says which is meant", count, name)};
+    const auto object = static_cast<std::uint32_t>(found - world.names.begin());
+    if (world.has_lightmap_uv[object] == 0)
+        return Error{"object \"" + name + "\" has no lightmap UVs and is not baked"};
+    return object;
+}
+
 }  // namespace
 
 struct Baker::Implementation {
@@ -263,11 +277,9 @@ Status Baker::Implementation::lay_out() {
     atlas = std::move(*made);
     map = map_texels(atlas);
     if (options.only_object) {
-        const auto found = std::find(world.names.begin(), world.names.end(), *options.only_object);
-        if (found == world.names.end())
-            return Error{"no object is called \"" + *options.only_object + "\"" +
-                         nearest_names(*options.only_object, world.names)};
-        map = only_of(map, world, static_cast<std::uint32_t>(found - world.names.begin()));
+        const auto object = object_called(world, *options.only_object);
+        if (!object) return object.error();
+        map = only_of(map, world, *object);
     }
     if (map.texels.empty()) return Error{"no texel is covered by any triangle; are the lightmap UVs degenerate?"};
 
