@@ -21,9 +21,9 @@ struct GltfWriteOptions {
 /// The bytes of a .glb file that read_gltf reads as the same scene, up to the rounding of unit vectors and of emission,
 /// with triangles sorted by material within a mesh, and without its environment, for which glTF has no place. Lightmap
 /// UVs are TEXCOORD_1, texture coordinates TEXCOORD_0 and, of a second set that is not the lightmap's, TEXCOORD_2;
-/// gaps between sets are filled; textures are PNG; a light's angular radius is in its extras. The same scene gives the same bytes.
-/// Errors: more than 4 GiB, extras that are no JSON object, a texture transform that shears.
-/// Preconditions: check_scene; sizes as said above.
+/// gaps between sets are filled; textures are PNG; a light's angular radius is in its extras. The same scene gives the
+/// same bytes. Errors: more than 4 GiB, extras that are no JSON object, a texture transform that shears. Preconditions:
+/// check_scene; sizes as said above.
 [[nodiscard]] Result<std::string> encode_glb(const Scene& scene, const GltfWriteOptions& options = {});
 
 /// The same into a file, written atomically.
