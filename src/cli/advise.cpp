@@ -19,7 +19,7 @@
 namespace lobelia::cli {
 namespace {
 
-struct Options {
+struct AdviseArguments {
     EnvironmentOptions environment;  ///< its path may name a bake or a scene, too
     AdviceOptions advice;
     std::string need = "irradiance";
@@ -52,7 +52,7 @@ double error_of(const Method& method, Need need) {
 }
 
 /// For each basis and evaluator the codec of the best encoder: the others take as many bytes.
-std::vector<CodecName> best_codecs(const Comparison& comparison, const Options& options) {
+std::vector<CodecName> best_codecs(const Comparison& comparison, const AdviseArguments& options) {
     std::map<std::pair<std::string, std::string>, const Method*> best;
     for (const Method& m : comparison.methods) {
         if (m.domain != options.domain) continue;
@@ -64,7 +64,7 @@ std::vector<CodecName> best_codecs(const Comparison& comparison, const Options& 
     return names;
 }
 
-Result<std::vector<Candidate>> candidates_for_gloss(const Image& environment, const Options& options) {
+Result<std::vector<Candidate>> candidates_for_gloss(const Image& environment, const AdviseArguments& options) {
     if (options.domain == Domain::hemisphere)
         return Error{"--need specular: gloss is judged all around; leave --domain hemisphere out"};
     GlossOptions judging;
@@ -75,7 +75,7 @@ Result<std::vector<Candidate>> candidates_for_gloss(const Image& environment, co
     return candidates;
 }
 
-Result<std::vector<Candidate>> candidates_for_environment(const Options& options) {
+Result<std::vector<Candidate>> candidates_for_environment(const AdviseArguments& options) {
     auto environment = load(options.environment);
     if (!environment) return environment.error();
     if (options.advice.need == Need::specular) return candidates_for_gloss(environment->image, options);
@@ -106,7 +106,7 @@ bool is_scene(const std::string& path) {
     return extension == ".glb" || extension == ".gltf" || std::find(names.begin(), names.end(), path) != names.end();
 }
 
-Result<LoadedScene> load_scene_for(const Options& options) {
+Result<LoadedScene> load_scene_for(const AdviseArguments& options) {
     SceneOptions scene;
     scene.path = options.environment.path;
     scene.read = options.environment.read;
@@ -116,7 +116,7 @@ Result<LoadedScene> load_scene_for(const Options& options) {
     return load_scene_of_bake(scene, *manifest);
 }
 
-Result<std::vector<Candidate>> candidates_for_scene(const Options& options) {
+Result<std::vector<Candidate>> candidates_for_scene(const AdviseArguments& options) {
     if (options.advice.need != Need::irradiance)
         return Error{"--need: of lightmaps only the irradiance is known well enough to judge by"};
     const auto scene = load_scene_for(options);
@@ -162,7 +162,7 @@ Status write_advice(const Advice& advice, const std::string& subject, const std:
     return Done{};
 }
 
-Status advise_verb(Options options) {
+Status advise_verb(AdviseArguments options) {
     if (options.need == "radiance") options.advice.need = Need::radiance;
     if (options.need == "specular") options.advice.need = Need::specular;
     options.advice.target = options.target / 100;
@@ -182,7 +182,7 @@ Status advise_verb(Options options) {
 }  // namespace
 
 Verb add_advise(CLI::App& app) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<AdviseArguments>();
     CLI::App* command = app.add_subcommand("advise", "Recommend a codec and a storage by error, bytes and time");
     add_environment_options(*command, options->environment);
     command->get_option("ENV")->description(

@@ -13,8 +13,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Options as they are typed, before they become a job.
-struct Options {
+/// BakeArguments as they are typed, before they become a job.
+struct BakeArguments {
     BakeJob job;
     std::string size = "512x512", memory = "2G", shard, shard_by = "tiles", frame = "world", directions = "uniform",
                 layout = "automatic", probes;
@@ -71,7 +71,7 @@ Result<std::optional<std::array<Vec3, 2>>> parse_box(const std::string& text) {
 
 Switch off_if(bool flag) { return flag ? Switch::off : Switch::on; }
 
-Result<BakeJob> to_job(const Options& options) {
+Result<BakeJob> to_job(const BakeArguments& options) {
     BakeJob job = options.job;
     const auto size = parse_grid(options.size);
     if (!size) return Error{"--size: " + size.error().message};
@@ -115,7 +115,7 @@ Result<BakeJob> to_job(const Options& options) {
     return job;
 }
 
-Status bake_verb(const Options& options) {
+Status bake_verb(const BakeArguments& options) {
     const bool rebake = !options.rebake_object.empty();
     if (!options.resume && options.add_samples == 0 && !rebake) {
         if (options.job.scene.path.empty())
@@ -153,7 +153,7 @@ Status merge_verb(const std::vector<std::string>& parts, const std::string& out,
     return run_job(*job, JobStart::merged, folders);
 }
 
-void add_transport_options(CLI::App& command, Options& o) {
+void add_transport_options(CLI::App& command, BakeArguments& o) {
     BakeOptions& bake = o.job.bake;
     command.add_option("--codec", bake.codec, "As basis/encoder/evaluator, see lobelia list")->capture_default_str();
     command.add_flag("--plain", o.plain, "No codec: irradiance at the shading normal alone");
@@ -176,7 +176,7 @@ void add_transport_options(CLI::App& command, Options& o) {
     command.add_flag("--no-roulette", o.no_roulette, "Follow weak paths to the end (slow; for comparison)");
 }
 
-void add_atlas_options(CLI::App& command, Options& o) {
+void add_atlas_options(CLI::App& command, BakeArguments& o) {
     AtlasOptions& atlas = o.job.bake.atlas;
     command.add_option("--size", o.size, "Of a page [texels], WxH, up to 16384x16384")->capture_default_str();
     command
@@ -191,7 +191,7 @@ void add_atlas_options(CLI::App& command, Options& o) {
         ->capture_default_str();
 }
 
-void add_session_options(CLI::App& command, Options& o) {
+void add_session_options(CLI::App& command, BakeArguments& o) {
     BakeOptions& bake = o.job.bake;
     command.add_option("-t,--threads", bake.threads, "0: all processors")
         ->check(CLI::Range(0u, 1024u))
@@ -219,7 +219,7 @@ void add_session_options(CLI::App& command, Options& o) {
         ->capture_default_str();
 }
 
-void add_output_options(CLI::App& command, Options& o) {
+void add_output_options(CLI::App& command, BakeArguments& o) {
     command.add_option("-o,--out", o.job.out, "Folder of the bake")->required();
     command.add_option("--precision", o.precision, "Of the EXR pages, half or float")
         ->check(CLI::IsMember({"half", "float"}))
@@ -250,7 +250,7 @@ void add_output_options(CLI::App& command, Options& o) {
 }  // namespace
 
 Verb add_bake(CLI::App& app) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<BakeArguments>();
     CLI::App* command = app.add_subcommand("bake", "Bake a scene's light into lightmaps and probes");
     add_scene_options(*command, options->job.scene, SceneArgument::optional);
     add_transport_options(*command, *options);

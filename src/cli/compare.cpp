@@ -14,7 +14,7 @@
 namespace lobelia::cli {
 namespace {
 
-struct Options {
+struct CompareArguments {
     EnvironmentOptions environment;
     SamplingOptions sampling;
     std::string out = "lobelia-report";
@@ -25,7 +25,7 @@ struct Options {
 };
 
 /// The codecs that the options name: those of --codec, or the list's (and any other basis named), filtered.
-Result<std::vector<CodecName>> chosen_codecs(const Options& options) {
+Result<std::vector<CodecName>> chosen_codecs(const CompareArguments& options) {
     if (!options.codecs.empty()) {
         std::vector<CodecName> chosen;
         for (const auto& name : options.codecs) {
@@ -73,7 +73,7 @@ Result<std::vector<CodecName>> chosen_codecs(const Options& options) {
 }
 
 /// The storages that the options name, each once; "all" is the whole list.
-Result<std::vector<const Storage*>> chosen_storages(const Options& options) {
+Result<std::vector<const Storage*>> chosen_storages(const CompareArguments& options) {
     std::vector<const Storage*> chosen;
     const auto add_once = [&](const Storage* storage) {
         if (std::find(chosen.begin(), chosen.end(), storage) == chosen.end()) chosen.push_back(storage);
@@ -90,7 +90,7 @@ Result<std::vector<const Storage*>> chosen_storages(const Options& options) {
     return chosen;
 }
 
-Result<Comparison> run(const Options& options, const Image& environment) {
+Result<Comparison> run(const CompareArguments& options, const Image& environment) {
     ComparisonOptions comparison = comparison_options(options.sampling);
     comparison.pictures = !options.json_only;
     comparison.convergence = !options.json_only && !options.no_convergence;
@@ -130,7 +130,7 @@ void print_summary(const Comparison& comparison) {
     if (ranked.size() > most) fmt::print("... and {} more, in the report\n", ranked.size() - most);
 }
 
-Status compare_verb(const Options& options) {
+Status compare_verb(const CompareArguments& options) {
     // Names first, then files: what is cheap to refuse is refused first.
     if (options.recipe.empty())
         if (const auto codecs = chosen_codecs(options); !codecs) return codecs.error();
@@ -156,7 +156,7 @@ Status compare_verb(const Options& options) {
 }  // namespace
 
 Verb add_compare(CLI::App& app) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<CompareArguments>();
     CLI::App* command =
         app.add_subcommand("compare", "Run codecs on an environment; write report.html and report.json");
     add_environment_options(*command, options->environment);

@@ -11,7 +11,7 @@
 namespace lobelia::cli {
 namespace {
 
-struct Options {
+struct ConvertArguments {
     std::string input, out, from, to, codec, mirror;
 };
 
@@ -34,7 +34,7 @@ Result<CodecName> codec_for(const std::string& name, std::size_t count) {
 }
 
 /// Our coefficients from the input file.
-Result<std::vector<Rgb>> read(const Options& options) {
+Result<std::vector<Rgb>> read(const ConvertArguments& options) {
     const auto text = read_text(options.input);
     if (!text) return text.error();
     if (!options.from.empty()) {
@@ -54,7 +54,7 @@ Result<std::vector<Rgb>> read(const Options& options) {
     return std::move(file->c);
 }
 
-Status convert_verb(const Options& options) {
+Status convert_verb(const ConvertArguments& options) {
     if (options.from.empty() && options.to.empty())
         return Error{"give --from, --to or both: one end of the conversion is not a coefficient file"};
     const ShConvention* to = nullptr;
@@ -86,7 +86,7 @@ Status convert_verb(const Options& options) {
 }  // namespace
 
 Verb add_convert(CLI::App& app) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<ConvertArguments>();
     CLI::App* command = app.add_subcommand(
         "convert", "Spherical harmonics from and to the conventions of DirectX, Unity, three.js, Filament and glTF");
     std::string names;

@@ -12,7 +12,7 @@ namespace {
 
 enum class Output { text, json };
 
-struct Options {
+struct ListArguments {
     bool axes = false, markdown = false;
     std::string storages;
     bool json = false;
@@ -89,7 +89,7 @@ Status print_layouts(const std::string& name, Output output) {
 
 Verb add_list(CLI::App& app) {
     CLI::App* command = app.add_subcommand("list", "Print the codecs, or what they are made of");
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<ListArguments>();
     CLI::Option* axes = command->add_flag("--axes", options->axes,
                                           "The bases, encoders, evaluators and storages with what they are, instead");
     command->add_flag("--markdown", options->markdown, "The page of bases, docs/bases.md, instead")->excludes(axes);

@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct RenderArguments {
     SceneOptions scene;
     std::string camera = "0", size = "960x600", out;
     PathOptions paths;
@@ -39,7 +39,7 @@ ToneCurve tone_of(const std::string& name) {
 }
 
 /// The picture as the file's name wants it.
-Status write_picture(const Options& options, const Image& image) {
+Status write_picture(const RenderArguments& options, const Image& image) {
     if (fs::path(options.out).extension() == ".exr") return write_exr(options.out, image);
     double mean = 0;
     for (const Rgb& pixel : image.pixels) mean += static_cast<double>(luminance(pixel));
@@ -55,7 +55,7 @@ Result<Image> finished(std::optional<Image> image) {
     return *std::move(image);
 }
 
-Result<Image> render_scene(const Options& options, const Scene& scene) {
+Result<Image> render_scene(const RenderArguments& options, const Scene& scene) {
     const auto camera = find_camera(scene, options.camera);
     if (!camera) return camera.error();
     const World world = make_world(scene);
@@ -66,14 +66,14 @@ Result<Image> render_scene(const Options& options, const Scene& scene) {
     return finished(render_paths(tracer, *camera, options.render));
 }
 
-Result<Image> render_baked(const Options& options) {
+Result<Image> render_baked(const RenderArguments& options) {
     const auto bake = read_bake(options.scene.path);
     if (!bake) return bake.error();
     const auto scene = load_scene_of_bake(options.scene, bake->manifest);
     if (!scene) return scene.error();
     for (const auto& warning : scene->warnings) complain("lobelia: warning: " + warning);
     if (options.truth) {
-        Options truth = options;
+        RenderArguments truth = options;
         truth.paths = bake->manifest.options.paths;
         return render_scene(truth, scene->scene);
     }
@@ -103,8 +103,8 @@ Result<Image> render_baked(const Options& options) {
     return finished(render_bake(tracer, light, *camera, options.render));
 }
 
-Status render_verb(const Options& given) {
-    Options options = given;
+Status render_verb(const RenderArguments& given) {
+    RenderArguments options = given;
     const auto size = parse_grid(options.size);
     if (!size) return Error{"--size: " + size.error().message};
     options.render.width = size->width;
@@ -129,7 +129,7 @@ Status render_verb(const Options& given) {
 }  // namespace
 
 Verb add_render(CLI::App& app) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<RenderArguments>();
     CLI::App* command =
         app.add_subcommand("render", "A picture of a scene by path tracing, or of a bake by its lightmaps");
     add_scene_options(*command, options->scene);

@@ -11,13 +11,13 @@
 namespace lobelia::cli {
 namespace {
 
-struct Options {
+struct SceneArguments {
     std::string name;
     std::string out;
     std::string environment;
 };
 
-Status scene_verb(const Options& options) {
+Status scene_verb(const SceneArguments& options) {
     if (!options.out.ends_with(".glb")) return Error{options.out + ": the file's name must end in .glb"};
     // Make everything before the first file is written.
     const auto scene = embedded_scene(options.name);
@@ -36,7 +36,7 @@ Status scene_verb(const Options& options) {
 }  // namespace
 
 Verb add_scene(CLI::App& app) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<SceneArguments>();
     CLI::App* command = app.add_subcommand("scene", "Write a scene that the program carries as a glTF file");
     command->add_option("NAME", options->name, fmt::format("Which one: {}", fmt::join(embedded_scene_names(), ", ")))
         ->required();

@@ -27,7 +27,7 @@ std::vector<std::string> first_bases() {
     return names;
 }
 
-struct Options {
+struct StudyArguments {
     std::string out = "lobelia-study";
     EnvironmentOptions environment;
     std::vector<std::string> bases = first_bases();
@@ -50,7 +50,7 @@ Status write_study(const Study& study, const std::filesystem::path& folder) {
 }
 
 /// Every codec at the texels of a scene.
-Status run_bake_study(const Options& options) {
+Status run_bake_study(const StudyArguments& options) {
     if (auto status = check_folder(options.out); !status) return status;
     const auto loaded = load_scene(options.scene);
     if (!loaded) return loaded.error();
@@ -63,7 +63,7 @@ Status run_bake_study(const Options& options) {
     return write_study(*study, options.out);
 }
 
-void add_bake_options(CLI::App& command, Options& options) {
+void add_bake_options(CLI::App& command, StudyArguments& options) {
     add_scene_options(command, options.scene);
     command.add_option("--out", options.out, "Folder of the study")->capture_default_str();
     command.add_option("--basis", options.bake.bases, "Only these bases (default: all of the list)");
@@ -84,7 +84,7 @@ void add_bake_options(CLI::App& command, Options& options) {
 }  // namespace
 
 Verb add_study(CLI::App& app) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<StudyArguments>();
     CLI::App* command = app.add_subcommand("study", "Measure formulae and encoders; write tables and graphs");
     command->require_subcommand(1);
 

@@ -15,7 +15,7 @@
 namespace lobelia::cli {
 namespace {
 
-struct Options {
+struct UnwrapArguments {
     std::string in;
     std::string out;
     std::string layout = "shared";
@@ -58,7 +58,7 @@ Status check_tools(const std::filesystem::path& folder, const std::atomic<bool>&
     return Done{};
 }
 
-Status check_options(const Options& options) {
+Status check_options(const UnwrapArguments& options) {
     if (!options.out.ends_with(".glb")) return Error{options.out + ": the output's name must end in .glb"};
     if (options.layout == "object" && !options.texels_per_metre)
         return Error{"--layout object needs --texels-per-metre: it decides how large each object's own square is"};
@@ -68,7 +68,7 @@ Status check_options(const Options& options) {
 }
 
 /// Sees that the file can be read, that all of it has UVs in the unit square, and that nothing lies on anything else.
-Status check_result(const std::filesystem::path& file, const Options& options) {
+Status check_result(const std::filesystem::path& file, const UnwrapArguments& options) {
     GltfReadOptions read_options;
     read_options.uv_set = options.uv_set;
     const auto loaded = read_gltf(file, read_options);
@@ -91,7 +91,7 @@ Status check_result(const std::filesystem::path& file, const Options& options) {
 }
 
 /// Runs the script, whose output is `file`; what it printed.
-Result<std::string> run_script(const Options& options, const std::filesystem::path& folder,
+Result<std::string> run_script(const UnwrapArguments& options, const std::filesystem::path& folder,
                                const std::filesystem::path& file, const std::atomic<bool>& stop) {
     nlohmann::json arguments = {{"layout", options.layout}, {"padding", options.padding}, {"uvSet", options.uv_set}};
     arguments["size"] = options.size ? nlohmann::json(*options.size) : nlohmann::json();
@@ -110,7 +110,7 @@ Result<std::string> run_script(const Options& options, const std::filesystem::pa
 }
 
 /// What was made, from what the script printed.
-void print_result(const std::string& printed, const Options& options) {
+void print_result(const std::string& printed, const UnwrapArguments& options) {
     const auto result = nlohmann::json::parse(printed, nullptr, false);
     if (!result.is_object()) return;
     fmt::print("{}, {}, {:.4g} texels per metre", counted(result.value("objects", 0u), "object"),
@@ -120,7 +120,7 @@ void print_result(const std::string& printed, const Options& options) {
     fmt::print("\n");
 }
 
-Status unwrap(const Options& options, const std::atomic<bool>& stop) {
+Status unwrap(const UnwrapArguments& options, const std::atomic<bool>& stop) {
     // Look at options, input and tools before the work.
     if (const auto status = check_options(options); !status) return status;
     if (const auto status = check_file(options.out); !status) return status;
@@ -146,7 +146,7 @@ Status unwrap(const Options& options, const std::atomic<bool>& stop) {
     return Done{};
 }
 
-Status unwrap_verb(const Options& options) {
+Status unwrap_verb(const UnwrapArguments& options) {
     const StopOnInterrupt stop;
     const Status status = unwrap(options, stop.flag());
     if (!status && stop.flag()) StopOnInterrupt::end_program();
@@ -156,7 +156,7 @@ Status unwrap_verb(const Options& options) {
 }  // namespace
 
 Verb add_unwrap(CLI::App& app) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<UnwrapArguments>();
     CLI::App* command = app.add_subcommand("unwrap", "Give a glTF scene lightmap UVs (needs Node.js)");
     command->add_option("SCENE", options->in, "A .glb or .gltf file")->required();
     command->add_option("-o,--output", options->out, "The file to write, .glb")->required();
