@@ -6,6 +6,7 @@
 #include "bench/trace.h"
 #include "lobelia/pack.h"
 #include "lobelia/sky.h"
+#include "lobelia/specular.h"
 #include "report/comparison.h"
 
 namespace lobelia::bench {
@@ -79,6 +80,28 @@ void evaluate_irradiance(benchmark::State& state, const std::shared_ptr<const Ba
     Colours out(k_normals);
     for (auto _ : state) {
         irradiance(evaluator, c, normals, out);
+        benchmark::DoNotOptimize(out.channel(0));
+    }
+    count_items(state, k_normals);
+}
+
+/// An item is one point: its own normal, view and roughness.
+void evaluate_gloss(benchmark::State& state, const std::shared_ptr<const Basis>& basis,
+                    const SpecularEvaluator& evaluator) {
+    Accumulator accumulator(make_encoder(encoder_names(*basis).back(), basis).value());
+    accumulator.add(samples_for(basis->domain(), 1024));
+    const std::vector<Rgb> c = accumulator.solve();
+    const Directions normals = uniform_directions(basis->domain(), Sequence::sobol, k_normals, 1);
+    Directions views(k_normals);
+    std::vector<float> alphas(k_normals);
+    for (std::size_t i = 0; i < k_normals; ++i) {
+        const Vec3 n = direction_at(normals, i), side = direction_at(normals, (i + 1) % k_normals);
+        set_entry(views, i, normalize(n + side * 0.8f));
+        alphas[i] = 0.1f + 0.8f * static_cast<float>(i) / k_normals;
+    }
+    Colours out(k_normals);
+    for (auto _ : state) {
+        evaluator.reflected(c, {normals, views, alphas}, out);
         benchmark::DoNotOptimize(out.channel(0));
     }
     count_items(state, k_normals);
@@ -169,6 +192,11 @@ void register_basis(const std::shared_ptr<const Basis>& basis) {
         benchmark::RegisterBenchmark(named("irradiance", name + "/" + evaluator_name, k_normals).c_str(),
                                      [basis, evaluator = basis->evaluator(evaluator_name)](benchmark::State& s) {
                                          evaluate_irradiance(s, basis, *evaluator);
+                                     });
+    for (const auto& gloss_name : specular_names(*basis))
+        benchmark::RegisterBenchmark(named("gloss", name + "/" + gloss_name, k_normals).c_str(),
+                                     [basis, gloss = make_specular(gloss_name, basis).value()](benchmark::State& s) {
+                                         evaluate_gloss(s, basis, *gloss);
                                      });
 }
 

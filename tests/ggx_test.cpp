@@ -9,15 +9,15 @@
 namespace lobelia {
 namespace {
 
-const ggx::View k_some_views[] = {ggx::make_view(1, 0.3f), ggx::make_view(0.7f, 0.5f), ggx::make_view(0.3f, 0.8f),
-                                  ggx::make_view(0.15f, 0.4f)};
+const ggx::View k_glossy_views[] = {ggx::make_view(1, 0.3f), ggx::make_view(0.7f, 0.5f), ggx::make_view(0.3f, 0.8f),
+                                    ggx::make_view(0.15f, 0.4f)};
 
 /// A smooth light >= 0.
-double smooth_light(Vec3 w) { return 1.5 + static_cast<double>(w.x) - 0.4 * static_cast<double>(w.y * w.z); }
+double smooth_glossy_light(Vec3 w) { return 1.5 + static_cast<double>(w.x) - 0.4 * static_cast<double>(w.y * w.z); }
 
 /// Integral over the upper hemisphere of f, by 96 x 192 directions.
 template <class F>
-double over_hemisphere(const F& f) {
+double over_upper_hemisphere(const F& f) {
     static const SphereRule rule = product_rule(Domain::hemisphere, 96);
     double sum = 0;
     for (std::size_t i = 0; i < rule.weights.size(); ++i) sum += rule.weights[i] * f(direction_at(rule.directions, i));
@@ -25,7 +25,7 @@ double over_hemisphere(const F& f) {
 }
 
 TEST(VisibleNormal, RoundTrip) {
-    for (const auto& view : k_some_views)
+    for (const auto& view : k_glossy_views)
         for (const Point2 p : sequence_points(Sequence::sobol, 500, 3)) {
             const Point2 back = ggx::VisibleNormal::inverse(view, ggx::VisibleNormal::sample(view, p));
             EXPECT_NEAR(back.a, p.a, 2e-5);
@@ -34,14 +34,14 @@ TEST(VisibleNormal, RoundTrip) {
 }
 
 TEST(VisibleNormal, DensityIntegratesToOne) {
-    for (const auto& view : k_some_views)
-        EXPECT_NEAR(over_hemisphere([&](Vec3 h) { return ggx::VisibleNormal::pdf(view, h); }), 1, 2e-3);
+    for (const auto& view : k_glossy_views)
+        EXPECT_NEAR(over_upper_hemisphere([&](Vec3 h) { return ggx::VisibleNormal::pdf(view, h); }), 1, 2e-3);
 }
 
 // 6 heights x 8 azimuths, 20000 draws; chi-square of 47 degrees of freedom is above 93.2 once in 10^4 times.
 TEST(VisibleNormal, SamplesFollowTheDensity) {
     constexpr std::size_t heights = 6, azimuths = 8, draws = 20000, fine = 24;
-    for (const auto& view : k_some_views) {
+    for (const auto& view : k_glossy_views) {
         const auto bin = [&](double z, double turns) {
             return std::min(heights - 1, static_cast<std::size_t>(z * z * heights)) * azimuths +
                    std::min(azimuths - 1, static_cast<std::size_t>(turns * azimuths));
@@ -73,7 +73,7 @@ TEST(VisibleNormal, SamplesFollowTheDensity) {
 }
 
 TEST(Ggx, ReflectionIsReciprocal) {
-    for (const auto& view : k_some_views)
+    for (const auto& view : k_glossy_views)
         for (float z : {0.2f, 0.5f, 0.9f}) {
             const Vec3 l = normalize(Vec3{-0.4f, 0.3f, z});
             auto other = ggx::make_view({0, 0, 1}, l, view.alpha);
@@ -85,11 +85,12 @@ TEST(Ggx, ReflectionIsReciprocal) {
 }
 
 TEST(Ggx, RaysIntegrateWhatQuadratureDoes) {
-    for (const auto& view : k_some_views) {
+    for (const auto& view : k_glossy_views) {
         double by_rays = 0;
         for (const auto& ray : ggx::rays(view, 4096))
-            by_rays += static_cast<double>(ray.weight) * smooth_light(ray.direction);
-        const double exact = over_hemisphere([&](Vec3 l) { return ggx::reflection(view, l) * smooth_light(l); });
+            by_rays += static_cast<double>(ray.weight) * smooth_glossy_light(ray.direction);
+        const double exact =
+            over_upper_hemisphere([&](Vec3 l) { return ggx::reflection(view, l) * smooth_glossy_light(l); });
         EXPECT_NEAR(by_rays, exact, 2e-3 * exact) << view.alpha << " " << view.cosine;
     }
 }
@@ -100,7 +101,7 @@ TEST(Ggx, SampledLobeIsWithinItsStandardError) {
     const auto light = [&](Vec3 l) { return std::exp(16 * (static_cast<double>(dot(l, axis)) - 1)); };
     std::mt19937 generator(9);
     std::uniform_real_distribution<double> uniform;
-    for (const auto& view : k_some_views) {
+    for (const auto& view : k_glossy_views) {
         double sum = 0, squares = 0;
         constexpr int draws = 20000;
         for (int i = 0; i < draws; ++i) {
@@ -112,7 +113,7 @@ TEST(Ggx, SampledLobeIsWithinItsStandardError) {
             squares += value * value;
         }
         const double mean = sum / draws, error = std::sqrt((squares / draws - mean * mean) / draws);
-        const double exact = over_hemisphere([&](Vec3 l) { return ggx::reflection(view, l) * light(l); });
+        const double exact = over_upper_hemisphere([&](Vec3 l) { return ggx::reflection(view, l) * light(l); });
         EXPECT_NEAR(mean, exact, 4 * error + 1e-3 * exact) << view.alpha << " " << view.cosine;
     }
 }
@@ -127,8 +128,9 @@ TEST(Ggx, WhiteFurnaceLosesOnlyWhatFacetsHide) {
     EXPECT_NEAR(ggx::lobe(ggx::make_view(0.7f, 0.01f)).albedo, 1, 2e-3);
     // Along the normal at alpha 1: D is 1 / pi, and the integral comes to 1 - ln 2.
     EXPECT_NEAR(ggx::lobe(ggx::make_view(1, 1)).albedo, 1 - std::log(2.0), 1e-3);
-    for (const auto& view : k_some_views)
-        EXPECT_NEAR(ggx::lobe(view).albedo, over_hemisphere([&](Vec3 l) { return ggx::reflection(view, l); }), 2e-3);
+    for (const auto& view : k_glossy_views)
+        EXPECT_NEAR(ggx::lobe(view).albedo, over_upper_hemisphere([&](Vec3 l) { return ggx::reflection(view, l); }),
+                    2e-3);
 }
 
 TEST(Ggx, TableIsWithinItsStatedErrors) {
@@ -157,10 +159,10 @@ TEST(Ggx, TableIsWithinItsStatedErrorsAtTheEdges) {
 }
 
 /// One point with its normal up.
-struct OnePoint {
+struct OneGlossyPoint {
     Directions normals{1}, views{1};
     float alpha;
-    OnePoint(Vec3 view, float a) : alpha(a) {
+    OneGlossyPoint(Vec3 view, float a) : alpha(a) {
         set_entry(normals, 0, Vec3{0, 0, 1});
         set_entry(views, 0, view);
     }
@@ -168,14 +170,14 @@ struct OnePoint {
 };
 
 TEST(Specular, SplitSumIsExactForConstantLight) {
-    const OnePoint point(normalize(Vec3{0.8f, 0.3f, 0.4f}), 0.35f);
+    const OneGlossyPoint point(normalize(Vec3{0.8f, 0.3f, 0.4f}), 0.35f);
     const std::vector<Rgb> one = {Rgb{1, 1, 1} * std::sqrt(4 * static_cast<float>(k_pi)), {}, {}, {}};
     const auto evaluator = make_specular("sh-convolution", make_basis("sh1").value()).value();
     Colours out(1);
     specular(*evaluator, one, point.points(), {1, 0.04f, 0}, out);
     const auto view = ggx::make_view({0, 0, 1}, direction_at(point.views, 0), point.alpha);
     const auto under = [&](double f0) {
-        return over_hemisphere([&](Vec3 l) {
+        return over_upper_hemisphere([&](Vec3 l) {
             const double c = static_cast<double>(dot(normalize(l + view.direction()), l));
             return ggx::reflection(view, l) * (f0 + (1 - f0) * std::pow(1 - c, 5));
         });
@@ -192,7 +194,7 @@ TEST(Specular, SamplingReadsEveryBasis) {
         const auto basis = make_basis(name).value();
         Accumulator accumulator(make_encoder("least-squares", basis).value());
         accumulator.add(basis->domain() == Domain::sphere ? samples : above);
-        const OnePoint point(normalize(Vec3{0.2f, -0.5f, 0.7f}), 0.25f);
+        const OneGlossyPoint point(normalize(Vec3{0.2f, -0.5f, 0.7f}), 0.25f);
         Colours out(1);
         make_specular("sampled", basis).value()->reflected(accumulator.solve(), point.points(), out);
         const double albedo = ggx::lobe(ggx::make_view({0, 0, 1}, direction_at(point.views, 0), 0.25f)).albedo;

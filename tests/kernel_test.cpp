@@ -7,6 +7,7 @@
 #include <functional>
 
 #include "lobelia/codec.h"
+#include "lobelia/specular.h"
 #include "support.h"
 #include "targets.h"
 
@@ -269,6 +270,28 @@ TEST(Targets, EveryEvaluatorIsTheSame) {
                 },
                 name + " " + evaluator_name, terms);
         }
+    }
+}
+
+TEST(Targets, EveryReadingOfGlossIsTheSame) {
+    // Those of a family are the same code.
+    for (const char* name : {"sg12", "sgfit3", "sh1", "sh4"}) {
+        const auto basis = make_basis(name).value();
+        std::vector<Rgb> c(basis->size());
+        for (std::size_t i = 0; i < c.size(); ++i)
+            c[i] = {1, 0.1f * static_cast<float>(i), 2 - static_cast<float>(i % 3)};
+        const Directions normals = test::random_directions(Domain::sphere, 300, 6);
+        const Directions views = test::random_directions(Domain::sphere, 300, 7);
+        std::vector<float> alphas(300);
+        for (std::size_t i = 0; i < 300; ++i) alphas[i] = 0.1f + 0.003f * static_cast<float>(i);
+        for (const auto& reading : specular_names(*basis))
+            expect_equal_on_all_targets(
+                [&] {
+                    Colours out(300);
+                    make_specular(reading, basis).value()->reflected(c, {normals, views, alphas}, out);
+                    return flat(out);
+                },
+                std::string(name) + " " + reading);
     }
 }
 

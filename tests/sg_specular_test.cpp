@@ -7,21 +7,21 @@
 namespace lobelia {
 namespace {
 
-float by_rays(const std::vector<ggx::Ray>& rays, float sharpness, Vec3 axis) {
+float lobe_through_rays(const std::vector<ggx::Ray>& rays, float sharpness, Vec3 axis) {
     float sum = 0;
     for (const auto& ray : rays) sum += ray.weight * std::exp(sharpness * (dot(ray.direction, axis) - 1));
     return sum;
 }
 
 /// What a kind makes of one lobe.
-float read(SgSpecular kind, const ggx::View& view, float sharpness, Vec3 axis) {
+float read_gloss(SgSpecular kind, const ggx::View& view, float sharpness, Vec3 axis) {
     Directions axes(1);
     set_entry(axes, 0, axis);
     return sg_specular(kind, view, sharpness, axes)[0];
 }
 
 /// Relative error of each kind, root mean square over all axes of a lobe.
-std::vector<double> errors(const ggx::View& view, float sharpness, DirectionView axes, std::size_t count) {
+std::vector<double> gloss_errors(const ggx::View& view, float sharpness, DirectionView axes, std::size_t count) {
     const auto rays = ggx::rays(view, count);
     const auto kinds = sg_specular_list();
     std::vector<std::vector<float>> values;
@@ -29,7 +29,7 @@ std::vector<double> errors(const ggx::View& view, float sharpness, DirectionView
     std::vector<double> sums(kinds.size());
     double truth = 0;
     for (std::size_t i = 0; i < axes.size; ++i) {
-        const float exact = by_rays(rays, sharpness, direction_at(axes, i));
+        const float exact = lobe_through_rays(rays, sharpness, direction_at(axes, i));
         truth += static_cast<double>(exact * exact);
         for (std::size_t k = 0; k < kinds.size(); ++k) {
             const float error = values[k][i] - exact;
@@ -46,7 +46,7 @@ TEST(SgSpecular, WithinStatedErrors) {
     for (float alpha : {0.1f, 0.17f, 0.3f, 0.5f, 0.8f})
         for (float cosine : {0.25f, 0.4f, 0.7f, 1.0f})
             for (float sharpness : {2.0f, 5.0f, 12.0f, 30.0f, 64.0f}) {
-                const auto e = errors(ggx::make_view(cosine, alpha), sharpness, axes, 1024);
+                const auto e = gloss_errors(ggx::make_view(cosine, alpha), sharpness, axes, 1024);
                 for (std::size_t k = 0; k < e.size(); ++k) worst[k] = std::max(worst[k], e[k]);
             }
     for (const auto& info : sg_specular_list()) {
@@ -63,7 +63,7 @@ TEST(SgSpecular, ReproducesThePublishedTable) {
     for (float alpha : {0.1f, 0.25f, 0.5f, 0.8f})
         for (float cosine : {0.95f, 0.6f, 0.25f})
             for (float sharpness : {2.0f, 6.0f, 16.0f, 64.0f}) {
-                const auto e = errors(ggx::make_view(cosine, alpha), sharpness, axes, 1024);
+                const auto e = gloss_errors(ggx::make_view(cosine, alpha), sharpness, axes, 1024);
                 for (std::size_t k = 0; k < e.size(); ++k) mean[k] += e[k] / 48;
             }
     const auto of = [&](SgSpecular kind) { return mean[static_cast<std::size_t>(kind)]; };
@@ -82,10 +82,10 @@ TEST(SgSpecular, WhiteFurnace) {
             const auto view = ggx::make_view(cosine, alpha);
             const float albedo = ggx::lobe(view).albedo;
             for (const auto& info : sg_specular_list())
-                EXPECT_FLOAT_EQ(read(info.kind, view, 0, {0, 0, 1}), albedo) << info.name;
+                EXPECT_FLOAT_EQ(read_gloss(info.kind, view, 0, {0, 0, 1}), albedo) << info.name;
             // And in the limit, for the new form.
             for (const Vec3 axis : {Vec3{0, 0, 1}, Vec3{1, 0, 0}, Vec3{0, 0, -1}})
-                EXPECT_NEAR(read(SgSpecular::two_ends, view, 1e-3f, axis), albedo, 4e-3);
+                EXPECT_NEAR(read_gloss(SgSpecular::two_ends, view, 1e-3f, axis), albedo, 4e-3);
         }
 }
 
@@ -97,7 +97,8 @@ TEST(SgSpecular, TwoEndsIsExactForBroadLight) {
             const auto view = ggx::make_view(cosine, alpha);
             const auto rays = ggx::rays(view, 4096);
             for (const Vec3 axis : {Vec3{0, 0, 1}, Vec3{-1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, -1}}) {
-                EXPECT_NEAR(read(SgSpecular::two_ends, view, sharpness, axis), by_rays(rays, sharpness, axis), 3e-3);
+                EXPECT_NEAR(read_gloss(SgSpecular::two_ends, view, sharpness, axis),
+                            lobe_through_rays(rays, sharpness, axis), 3e-3);
             }
         }
 }
@@ -108,8 +109,8 @@ TEST(SgSpecular, TwoEndsIsExactForNarrowLight) {
             const auto view = ggx::make_view(cosine, alpha);
             for (const Vec3 axis : {normalize(Vec3{-0.4f, 0.1f, 0.8f}), normalize(Vec3{0.3f, 0.4f, 0.5f})}) {
                 const double exact = gaussian::integral(1e4) * ggx::reflection(view, axis);
-                EXPECT_NEAR(read(SgSpecular::punctual, view, 1e4f, axis), exact, 1e-4 * exact);
-                EXPECT_NEAR(read(SgSpecular::two_ends, view, 1e4f, axis), exact, 0.02 * exact);
+                EXPECT_NEAR(read_gloss(SgSpecular::punctual, view, 1e4f, axis), exact, 1e-4 * exact);
+                EXPECT_NEAR(read_gloss(SgSpecular::two_ends, view, 1e4f, axis), exact, 0.02 * exact);
             }
         }
 }
@@ -125,11 +126,11 @@ TEST(SgSpecular, FiniteAndNotNegativeEverywhere) {
                             << info.name << " " << alpha << " " << cosine << " " << sharpness << ": " << value;
 }
 
-/// Points on a sphere, seen from one direction, turned.
-struct Points {
+/// TurnedPoints on a sphere, seen from one direction, turned.
+struct TurnedPoints {
     Directions normals, views;
     std::vector<float> alphas;
-    Points(std::size_t count, const Rotation& r) : normals(count), views(count) {
+    TurnedPoints(std::size_t count, const Rotation& r) : normals(count), views(count) {
         const Directions all = uniform_directions(Domain::sphere, Sequence::sobol, count, 4);
         for (std::size_t i = 0; i < count; ++i) {
             set_entry(normals, i, rotate(r, direction_at(all, i)));
@@ -146,7 +147,7 @@ TEST(SgSpecular, RotationEquivariance) {
     for (std::size_t i = 0; i < c.size(); ++i) c[i] = {1, static_cast<float>(i), 0.5f};
     const Rotation r = test::some_rotation();
     const auto turned = basis->rotated(r, c);
-    const Points points(200, test::about_z(0)), turned_points(200, r);
+    const TurnedPoints points(200, test::about_z(0)), turned_points(200, r);
     Colours out(200), turned_out(200);
     for (const auto& name : sg_specular_names()) {
         make_specular(name, basis).value()->reflected(c, points.view(), out);
@@ -161,7 +162,7 @@ TEST(SgSpecular, FittedLobesAreReadLikeFixedOnes) {
     const auto fitted = make_basis("sgfit3").value();
     const std::vector<Rgb> c = {{1, 2, 3}, {0, 0, 8}, {0.5f, 0, 0}, {3, 0, 0}, {}, {}};
     const std::vector<gaussian::Lobe> lobes = {{{0, 0, 1}, 8}, {{1, 0, 0}, 3}};
-    const Points points(50, test::some_rotation());
+    const TurnedPoints points(50, test::some_rotation());
     Colours out(50), expected(50);
     for (const auto& name : sg_specular_names()) {
         make_specular(name, fitted).value()->reflected(c, points.view(), out);

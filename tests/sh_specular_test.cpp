@@ -28,11 +28,11 @@ std::vector<Rgb> power_lobe(std::size_t degree, Vec3 axis) {
     return c;
 }
 
-/// Points over the sphere whose views are `cosine` from their normals, all of one alpha.
-struct Points {
+/// PointsAtAngle over the sphere whose views are `cosine` from their normals, all of one alpha.
+struct PointsAtAngle {
     Directions normals, views;
     std::vector<float> alphas;
-    Points(std::size_t count, float cosine, float alpha) : normals(count), views(count), alphas(count, alpha) {
+    PointsAtAngle(std::size_t count, float cosine, float alpha) : normals(count), views(count), alphas(count, alpha) {
         const Directions all = uniform_directions(Domain::sphere, Sequence::sobol, count, 4);
         const float sine = std::sqrt(1 - cosine * cosine);
         for (std::size_t i = 0; i < count; ++i) {
@@ -45,7 +45,7 @@ struct Points {
 };
 
 /// Root mean square of the difference to many rays, over that of the truth.
-double relative_error(std::string_view name, std::size_t degree, std::span<const Rgb> c, const Points& points) {
+double gloss_error(std::string_view name, std::size_t degree, std::span<const Rgb> c, const PointsAtAngle& points) {
     const auto basis = make_basis("sh" + std::to_string(degree)).value();
     Colours out(points.alphas.size()), exact(points.alphas.size());
     make_specular(name, basis).value()->reflected(c, points.view(), out);
@@ -59,30 +59,33 @@ double relative_error(std::string_view name, std::size_t degree, std::span<const
     return std::sqrt(error / truth);
 }
 
-const Vec3 k_axis = normalize(Vec3{0.4f, -0.7f, 0.5f});
+const Vec3 k_power_axis = normalize(Vec3{0.4f, -0.7f, 0.5f});
 
 TEST(ShSpecular, ConvolutionIsExactToDegreeOne) {
     for (float alpha : {0.1f, 0.4f, 0.9f})
         for (float cosine : {0.2f, 0.6f, 1.0f})
-            EXPECT_LT(relative_error("sh-convolution", 1, power_lobe(1, k_axis), Points(40, cosine, alpha)), 3e-3)
+            EXPECT_LT(gloss_error("sh-convolution", 1, power_lobe(1, k_power_axis), PointsAtAngle(40, cosine, alpha)),
+                      3e-3)
                 << alpha << " " << cosine;
 }
 
 TEST(ShSpecular, ConvolutionIsExactAlongTheNormal) {
     for (float alpha : {0.1f, 0.4f, 0.9f})
         for (std::size_t degree : {2u, 4u, 8u})
-            EXPECT_LT(relative_error("sh-convolution", degree, power_lobe(degree, k_axis), Points(40, 1, alpha)), 6e-3)
+            EXPECT_LT(
+                gloss_error("sh-convolution", degree, power_lobe(degree, k_power_axis), PointsAtAngle(40, 1, alpha)),
+                6e-3)
                 << alpha << " " << degree;
 }
 
 TEST(ShSpecular, PrefilteredIsExactAlongTheNormal) {
-    EXPECT_LT(relative_error("sh-prefiltered", 4, power_lobe(4, k_axis), Points(40, 1, 0.4f)), 6e-3);
+    EXPECT_LT(gloss_error("sh-prefiltered", 4, power_lobe(4, k_power_axis), PointsAtAngle(40, 1, 0.4f)), 6e-3);
 }
 
 TEST(ShSpecular, MirrorReflectsTheRadiance) {
-    const auto c = power_lobe(4, k_axis);
+    const auto c = power_lobe(4, k_power_axis);
     const auto basis = make_basis("sh4").value();
-    const Points points(60, 0.5f, 0);
+    const PointsAtAngle points(60, 0.5f, 0);
     Directions mirrored(60);
     for (std::size_t i = 0; i < 60; ++i) {
         const Vec3 n = direction_at(points.normals, i), v = direction_at(points.views, i);
@@ -99,7 +102,7 @@ TEST(ShSpecular, MirrorReflectsTheRadiance) {
 TEST(ShSpecular, WhiteFurnace) {
     for (const auto& name : sh_specular_names())
         for (float alpha : {0.1f, 0.5f, 1.0f}) {
-            const Points points(5, 0.3f, alpha);
+            const PointsAtAngle points(5, 0.3f, alpha);
             std::vector<Rgb> c(9);
             c[0] = Rgb{1, 1, 1} * std::sqrt(4 * static_cast<float>(k_pi));
             Colours out(5);
@@ -110,15 +113,15 @@ TEST(ShSpecular, WhiteFurnace) {
 
 TEST(ShSpecular, DominantIsExactForOneLamp) {
     // Degree 1 of a lamp: its irradiance across the beam is 1.
-    const auto y = harmonics::values(1, k_axis.x, k_axis.y, k_axis.z);
+    const auto y = harmonics::values(1, k_power_axis.x, k_power_axis.y, k_power_axis.z);
     std::vector<Rgb> c(4);
     for (std::size_t i = 0; i < 4; ++i) c[i] = Rgb{1, 1, 1} * static_cast<float>(y[i]);
-    const Points points(40, 0.5f, 0.3f);
+    const PointsAtAngle points(40, 0.5f, 0.3f);
     Colours out(40);
     sh_specular("sh-dominant", 1)->reflected(c, points.view(), out);
     for (std::size_t i = 0; i < 40; ++i) {
         const auto view = ggx::make_view(direction_at(points.normals, i), direction_at(points.views, i), 0.3f);
-        const double exact = ggx::reflection(view, view.to_local(k_axis));
+        const double exact = ggx::reflection(view, view.to_local(k_power_axis));
         EXPECT_NEAR(colour_at(out, i).g, exact, 1e-3 + 2e-3 * exact);
     }
 }
@@ -129,10 +132,10 @@ TEST(ShSpecular, WithinStatedErrors) {
     for (float alpha : {0.1f, 0.3f, 0.8f})
         for (float cosine : {0.25f, 0.6f, 0.95f})
             for (std::size_t degree : {2u, 4u, 8u}) {
-                const auto c = power_lobe(degree, k_axis);
-                const Points points(100, cosine, alpha);
-                convolution = std::max(convolution, relative_error("sh-convolution", degree, c, points));
-                prefiltered = std::max(prefiltered, relative_error("sh-prefiltered", degree, c, points));
+                const auto c = power_lobe(degree, k_power_axis);
+                const PointsAtAngle points(100, cosine, alpha);
+                convolution = std::max(convolution, gloss_error("sh-convolution", degree, c, points));
+                prefiltered = std::max(prefiltered, gloss_error("sh-prefiltered", degree, c, points));
             }
     EXPECT_LT(convolution, 0.13);
     EXPECT_LT(prefiltered, 0.7);

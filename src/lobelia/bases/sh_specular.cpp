@@ -7,7 +7,7 @@
 namespace lobelia {
 namespace {
 
-ggx::View view_at(const SpecularPoints& points, std::size_t i) {
+ggx::View glossy_view(const SpecularPoints& points, std::size_t i) {
     return ggx::make_view(direction_at(points.normals, i), direction_at(points.views, i), points.alphas[i]);
 }
 
@@ -34,7 +34,7 @@ class ZonalSpecular final : public SpecularEvaluator {
         for (std::size_t begin = 0; begin < points.size(); begin += k_block_size) {
             const std::size_t count = std::min(k_block_size, points.size() - begin);
             for (std::size_t j = 0; j < count; ++j) {
-                reads[j] = read(view_at(points, begin + j));
+                reads[j] = read(glossy_view(points, begin + j));
                 set_entry(directions, j, reads[j].direction);
             }
             harmonics_.values(DirectionView(directions).part(0, count), rows.data());
@@ -84,7 +84,7 @@ class DominantSpecular final : public SpecularEvaluator {
     void reflected(std::span<const Rgb> c, const SpecularPoints& points, MutableColourView out) const override {
         const Light light = split(c);
         for (std::size_t i = 0; i < points.size(); ++i) {
-            ggx::View view = view_at(points, i);
+            ggx::View view = glossy_view(points, i);
             Rgb L = light.ambient * ggx::lobe(view).albedo;
             // The lamp's width is unknown but for how far light points at all: make the surface rougher instead.
             view.alpha = std::min(1.0f, view.alpha / std::max(light.pointing, 1e-4f));

@@ -18,54 +18,54 @@ constexpr float k_published_low = 2, k_published_high = 64;
 constexpr std::size_t k_truth_rays = 4096, k_axes = 400;
 
 /// What a lobe sends to the viewer, by rays.
-float by_rays(const std::vector<ggx::Ray>& rays, float sharpness, Vec3 axis) {
+float study_by_rays(const std::vector<ggx::Ray>& rays, float sharpness, Vec3 axis) {
     float sum = 0;
     for (const auto& ray : rays) sum += ray.weight * std::exp(sharpness * (dot(ray.direction, axis) - 1));
     return sum;
 }
-std::vector<float> by_rays(const std::vector<ggx::Ray>& rays, float sharpness, DirectionView axes) {
+std::vector<float> study_by_rays(const std::vector<ggx::Ray>& rays, float sharpness, DirectionView axes) {
     std::vector<float> values(axes.size);
-    for (std::size_t i = 0; i < axes.size; ++i) values[i] = by_rays(rays, sharpness, direction_at(axes, i));
+    for (std::size_t i = 0; i < axes.size; ++i) values[i] = study_by_rays(rays, sharpness, direction_at(axes, i));
     return values;
 }
 
 /// One way to read a lobe: a formula or a few rays.
-struct Reading {
+struct StudyReading {
     std::string name;
     std::optional<SgSpecular> formula;
     std::size_t rays = 0;
 };
-std::vector<Reading> study_readings() {
-    std::vector<Reading> all;
+std::vector<StudyReading> study_readings() {
+    std::vector<StudyReading> all;
     for (const auto& info : sg_specular_list()) all.push_back({std::string(info.name), info.kind});
     for (std::size_t count : {16u, 64u}) all.push_back({"sampled, " + std::to_string(count) + " rays", {}, count});
     return all;
 }
 
 /// Relative errors of one reading: root mean square over axes of the lobe, over that of the truth.
-struct RelativeError {
+struct StudyError {
     double sphere = 0, hemisphere = 0;  ///< axes everywhere, or above the horizon
 };
 struct StudyCase {
     float alpha, cosine, sharpness;
-    std::vector<RelativeError> errors;  ///< of each reading
+    std::vector<StudyError> errors;  ///< of each reading
     [[nodiscard]] bool is_published() const { return sharpness >= k_published_low && sharpness <= k_published_high; }
 };
 
-std::vector<RelativeError> measure(const ggx::View& view, float sharpness, const std::vector<ggx::Ray>& truth_rays) {
+std::vector<StudyError> measure_gloss(const ggx::View& view, float sharpness, const std::vector<ggx::Ray>& truth_rays) {
     static const Directions axes = uniform_directions(Domain::sphere, Sequence::hammersley, k_axes, 0);
-    const auto truth = by_rays(truth_rays, sharpness, axes);
+    const auto truth = study_by_rays(truth_rays, sharpness, axes);
     double whole = 0, upper = 0;
     for (std::size_t i = 0; i < k_axes; ++i) {
         const double square = static_cast<double>(truth[i] * truth[i]);
         whole += square;
         if (direction_at(axes, i).z > 0) upper += square;
     }
-    std::vector<RelativeError> errors;
-    for (const Reading& reading : study_readings()) {
+    std::vector<StudyError> errors;
+    for (const StudyReading& reading : study_readings()) {
         const auto values = reading.formula ? sg_specular(*reading.formula, view, sharpness, axes)
-                                            : by_rays(ggx::rays(view, reading.rays), sharpness, axes);
-        RelativeError e;
+                                            : study_by_rays(ggx::rays(view, reading.rays), sharpness, axes);
+        StudyError e;
         for (std::size_t i = 0; i < k_axes; ++i) {
             const double square = static_cast<double>((values[i] - truth[i]) * (values[i] - truth[i]));
             e.sphere += square;
@@ -76,19 +76,19 @@ std::vector<RelativeError> measure(const ggx::View& view, float sharpness, const
     return errors;
 }
 
-std::vector<StudyCase> all_cases() {
+std::vector<StudyCase> all_gloss_cases() {
     std::vector<StudyCase> cases;
     for (float alpha : k_study_alphas)
         for (float cosine : k_study_cosines) {
             const auto view = ggx::make_view(cosine, alpha);
             const auto rays = ggx::rays(view, k_truth_rays);
             for (float sharpness : k_study_sharpnesses)
-                cases.push_back({alpha, cosine, sharpness, measure(view, sharpness, rays)});
+                cases.push_back({alpha, cosine, sharpness, measure_gloss(view, sharpness, rays)});
         }
     return cases;
 }
 
-Study::Table mean_table(const std::vector<StudyCase>& cases) {
+Study::Table mean_gloss_table(const std::vector<StudyCase>& cases) {
     Study::Table table{"Mean relative error of a lobe's reflected light",
                        "Over alpha 0.1, 0.25, 0.5, 0.8; n.v 0.95, 0.6, 0.25; sharpness 2, 6, 16, 64. Each error is a "
                        "root mean square over axes of the lobe, all over the sphere or above the horizon, divided by "
@@ -260,7 +260,7 @@ Study::Plot curve_plot(float alpha, float cosine, float sharpness) {
     };
     for (const auto& info : sg_specular_list())
         add(std::string(info.name), sg_specular(info.kind, view, sharpness, axes));
-    add("4096 rays", by_rays(ggx::rays(view, k_truth_rays), sharpness, axes));
+    add("4096 rays", study_by_rays(ggx::rays(view, k_truth_rays), sharpness, axes));
     return plot;
 }
 
@@ -304,7 +304,7 @@ void add_glossy_spheres(Study& study, float alpha, float sharpness) {
     Colours values(sphere.owners.size());
     for (std::size_t i = 0; i < values.size(); ++i) {
         const auto view = ggx::make_view(direction_at(sphere.normals, i), {0, 0, 1}, alpha);
-        const float value = by_rays(ggx::rays(view, 256), sharpness, view.to_local(lobe.axis));
+        const float value = study_by_rays(ggx::rays(view, 256), sharpness, view.to_local(lobe.axis));
         set_entry(values, i, Rgb{value, value, value});
     }
     const float brightest = *std::max_element(values.channel(0), values.channel(0) + values.size());
@@ -326,8 +326,8 @@ Study study_specular() {
         "A lobe exp(lambda (l.p - 1)) lights a GGX surface: the reflected radiance is the integral of the lobe times "
         "D G / (4 n.v) over the hemisphere, without Fresnel. Each reading is compared with rays along visible normals, "
         "over roughness, view angle and sharpness; spherical harmonics likewise.";
-    const auto cases = all_cases();
-    study.tables.push_back(mean_table(cases));
+    const auto cases = all_gloss_cases();
+    study.tables.push_back(mean_gloss_table(cases));
     for (std::size_t k = 0; k < sg_specular_list().size(); ++k) study.tables.push_back(case_table(cases, k));
     study.tables.push_back(harmonics_table());
     study.tables.push_back(furnace_table());

@@ -14,10 +14,10 @@ double sine_squared(Vec3 v) {
 
 /// The viewer stretched to where the surface is the unit hemisphere, and the disc seen from there: the axes of its
 /// plane (the second one half hidden) and how much of the second is hidden.
-struct Stretched {
+struct StretchedView {
     double x, z;     ///< the viewer; y is 0
     double visible;  ///< share of the hidden half's radius that is seen
-    explicit Stretched(const View& view) {
+    explicit StretchedView(const View& view) {
         const double sx = static_cast<double>(view.alpha) * static_cast<double>(view.sine);
         const double sz = static_cast<double>(view.cosine), scale = 1 / std::hypot(sx, sz);
         x = sx * scale;
@@ -26,7 +26,7 @@ struct Stretched {
     }
 };
 
-Vec3 unit(double x, double y, double z) {
+Vec3 unit_vector(double x, double y, double z) {
     const double scale = 1 / std::sqrt(x * x + y * y + z * z);
     return {static_cast<float>(x * scale), static_cast<float>(y * scale), static_cast<float>(z * scale)};
 }
@@ -70,7 +70,7 @@ double reflection(const View& view, Vec3 light) {
 }
 
 Vec3 VisibleNormal::sample(const View& view, Point2 p) {
-    const Stretched s(view);
+    const StretchedView s(view);
     const double r = std::sqrt(p.a), phi = 2 * k_pi * p.b;
     // Across the plane of incidence the disc is whole, along it one half is foreshortened.
     const double across = r * std::cos(phi), rim = std::sqrt(std::max(0.0, 1 - across * across));
@@ -79,7 +79,7 @@ Vec3 VisibleNormal::sample(const View& view, Point2 p) {
     // Back from the disc, whose axes are y and the viewer's upright, and out of the stretched space.
     const auto alpha = static_cast<double>(view.alpha);
     const double x = -s.z * along + s.x * towards, z = s.x * along + s.z * towards;
-    return unit(alpha * x, alpha * across, std::max(1e-9, z));
+    return unit_vector(alpha * x, alpha * across, std::max(1e-9, z));
 }
 
 double VisibleNormal::pdf(const View& view, Vec3 h) {
@@ -90,7 +90,7 @@ double VisibleNormal::pdf(const View& view, Vec3 h) {
 }
 
 Point2 VisibleNormal::inverse(const View& view, Vec3 h) {
-    const Stretched s(view);
+    const StretchedView s(view);
     const auto alpha = static_cast<double>(view.alpha);
     const double hx = static_cast<double>(h.x) / alpha, hy = static_cast<double>(h.y) / alpha;
     const double hz = static_cast<double>(h.z), scale = 1 / std::sqrt(hx * hx + hy * hy + hz * hz);

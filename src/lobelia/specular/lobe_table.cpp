@@ -5,7 +5,7 @@ namespace lobelia::ggx {
 namespace {
 
 /// Entries along either side, and the rays that each is made from.
-constexpr std::size_t k_side = 32, k_table_rays = 1024;
+constexpr std::size_t k_lobe_side = 32, k_table_rays = 1024;
 /// From radians to the unit interval.
 constexpr auto k_elevation_scale = static_cast<float>(2 / k_pi);
 
@@ -17,24 +17,24 @@ struct Coordinates {
 Coordinates coordinates(const View& view) {
     return {std::sqrt(view.alpha), std::sqrt(std::asin(view.cosine) * k_elevation_scale)};
 }
-constexpr float k_last = static_cast<float>(k_side - 1);
-View view_at(std::size_t i, std::size_t j) {
-    const auto a = static_cast<float>(i) / k_last, e = static_cast<float>(j) / k_last;
+constexpr float k_lobe_last = static_cast<float>(k_lobe_side - 1);
+View table_view(std::size_t i, std::size_t j) {
+    const auto a = static_cast<float>(i) / k_lobe_last, e = static_cast<float>(j) / k_lobe_last;
     return make_view(std::sin(e * e / k_elevation_scale), a * a);
 }
 
 /// A lobe in numbers that bend little from entry to entry: the axis as its angle from the mirror direction, and the
 /// spread as a root relative to alpha, which both tend to 0 with it.
-using Entry = std::array<float, 4 + k_zonal_degree - 1>;
+using LobeEntry = std::array<float, 4 + k_zonal_degree - 1>;
 
-Entry to_entry(const Lobe& lobe, const View& view) {
+LobeEntry to_entry(const Lobe& lobe, const View& view) {
     const float tilt = std::atan2(-lobe.axis.x, lobe.axis.z) - std::acos(view.cosine);
-    Entry entry{lobe.albedo, lobe.fresnel, tilt, std::sqrt(lobe.spread) / view.alpha};
+    LobeEntry entry{lobe.albedo, lobe.fresnel, tilt, std::sqrt(lobe.spread) / view.alpha};
     for (std::size_t l = 2; l <= k_zonal_degree; ++l) entry[2 + l] = lobe.zonal[l];
     return entry;
 }
 
-Lobe from_entry(const Entry& entry, const View& view) {
+Lobe from_entry(const LobeEntry& entry, const View& view) {
     Lobe lobe;
     lobe.albedo = entry[0];
     lobe.fresnel = entry[1];
@@ -49,23 +49,23 @@ Lobe from_entry(const Entry& entry, const View& view) {
     return lobe;
 }
 
-std::vector<Entry> make_table() {
-    std::vector<Entry> table(k_side * k_side);
-    for (std::size_t i = 0; i < k_side; ++i)
-        for (std::size_t j = 0; j < k_side; ++j) {
-            const View view = view_at(i, j);
-            table[i * k_side + j] = to_entry(lobe_by_rays(view, k_table_rays), view);
+std::vector<LobeEntry> make_lobe_table() {
+    std::vector<LobeEntry> table(k_lobe_side * k_lobe_side);
+    for (std::size_t i = 0; i < k_lobe_side; ++i)
+        for (std::size_t j = 0; j < k_lobe_side; ++j) {
+            const View view = table_view(i, j);
+            table[i * k_lobe_side + j] = to_entry(lobe_by_rays(view, k_table_rays), view);
         }
     return table;
 }
 
 /// The cell that a coordinate lies in, and where in it.
-struct Place {
+struct TablePlace {
     std::size_t index;
     float along;
-    explicit Place(float coordinate)
-        : index(std::min(k_side - 2, static_cast<std::size_t>(std::max(0.0f, coordinate * k_last)))),
-          along(std::clamp(coordinate * k_last - static_cast<float>(index), 0.0f, 1.0f)) {}
+    explicit TablePlace(float coordinate)
+        : index(std::min(k_lobe_side - 2, static_cast<std::size_t>(std::max(0.0f, coordinate * k_lobe_last)))),
+          along(std::clamp(coordinate * k_lobe_last - static_cast<float>(index), 0.0f, 1.0f)) {}
 };
 
 }  // namespace
@@ -111,14 +111,14 @@ Lobe lobe_by_rays(const View& view, std::size_t count) {
 }
 
 Lobe lobe(const View& view) {
-    static const std::vector<Entry> table = make_table();
+    static const std::vector<LobeEntry> table = make_lobe_table();
     const auto [alpha, elevation] = coordinates(view);
-    const Place a(alpha), b(elevation);
-    const Entry* corner = &table[a.index * k_side + b.index];
-    Entry entry;
+    const TablePlace a(alpha), b(elevation);
+    const LobeEntry* corner = &table[a.index * k_lobe_side + b.index];
+    LobeEntry entry;
     for (std::size_t k = 0; k < entry.size(); ++k) {
         const float low = corner[0][k] + (corner[1][k] - corner[0][k]) * b.along;
-        const float high = corner[k_side][k] + (corner[k_side + 1][k] - corner[k_side][k]) * b.along;
+        const float high = corner[k_lobe_side][k] + (corner[k_lobe_side + 1][k] - corner[k_lobe_side][k]) * b.along;
         entry[k] = low + (high - low) * a.along;
     }
     return from_entry(entry, view);
