@@ -150,7 +150,7 @@ class RunningAverage final : public SequentialEncoder {
 class Progressive final : public SequentialEncoder {
   public:
     Progressive(std::shared_ptr<const LinearBasis> basis_of, Sign sign, const ProgressiveOptions& options)
-        : SequentialEncoder(std::move(basis_of), sign), options_(options) {
+        : SequentialEncoder(basis_of, sign), options_(options) {
         const Matrix gram = basis().gram();
         const std::size_t n = basis().size();
         for (std::size_t i = 0; i < n; ++i)
@@ -235,7 +235,7 @@ class Progressive final : public SequentialEncoder {
 class MatrixGain final : public SequentialEncoder {
   public:
     explicit MatrixGain(std::shared_ptr<const LinearBasis> basis_of)
-        : SequentialEncoder(std::move(basis_of), Sign::any) {
+        : SequentialEncoder(basis_of, Sign::any) {
         const auto n = static_cast<Eigen::Index>(basis().size());
         const Matrix gram = basis().gram();
         Eigen::MatrixXd mean = Eigen::Map<const Eigen::MatrixXd>(gram.data(), n, n) / solid_angle(basis().domain());
