@@ -134,40 +134,50 @@ Bake some_bake_within(const std::string& codec) {
     return bake;
 }
 
-CoefficientPlanes planes_of(const Page& page, std::size_t coefficients) {
-    return {page.width, page.height, std::span(page.planes), coefficients};
+/// Reads the files of one storage back, as the manifest says.
+Page page_in(const fs::path& folder, const BakedPage& baked, const Storage& storage, const Page& like,
+             std::size_t coefficients) {
+    TextureLayout layout{coefficients, {}};
+    std::vector<PackedTexture> packed;
+    for (const BakedTexture& texture : baked.textures) {
+        if (texture.storage != storage.name) continue;
+        EXPECT_EQ(texture.file, "page-0." + texture.storage + "." + texture.layout.name + ".ktx2");
+        layout.textures.push_back(texture.layout);
+        packed.push_back(texture_in(folder / texture.file, texture.layout.format));
+        packed.back().scale = texture.scale;
+    }
+    EXPECT_FALSE(packed.empty());
+    Page back = like;
+    unpack(layout, packed, {back.width, back.height, std::span(back.planes), coefficients});
+    return back;
 }
 
 TEST(BakeTextures, FilesHoldThePageWithinEachStoragesBound) {
-    for (const char* codec : {"sh1/moments/convolution", "sg12/nnls/exact", "ahd/moments/punctual"}) {
-        const Bake bake = some_bake_within(codec);
+    for (const char* codec : {"sh1/moments/convolution", "sg3/nnls/exact", "ahd/moments/punctual"}) {
+        Bake bake = some_bake_within(codec);
+        bake.pages.pop_back();
+        bake.normals.pop_back();
+        bake.manifest.objects.pop_back();  // it lies there
         const CoefficientTraits traits = traits_of(codec);
-        for (const Storage& storage : storages()) {
-            if (!suits(storage, traits)) continue;
-            SCOPED_TRACE(std::string(codec) + " " + std::string(storage.name));
-            const test::TestFolder folder("bake-textures");
-            ASSERT_TRUE(write_bake(folder.path(), bake, {.storages = {{std::string(storage.name)}}}));
-            const auto manifest = read_manifest(folder.path());
-            ASSERT_TRUE(manifest) << manifest.error().message;
-
-            // Read the bytes back as the manifest says.
-            TextureLayout layout{traits.count, {}};
-            std::vector<PackedTexture> packed;
-            for (const BakedTexture& texture : manifest->pages[1].textures) {
-                EXPECT_EQ(texture.file, "page-1." + texture.storage + "." + texture.layout.name + ".ktx2");
-                layout.textures.push_back(texture.layout);
-                packed.push_back(texture_in(folder.path() / texture.file, texture.layout.format));
-                packed.back().scale = texture.scale;
-            }
-            Page back = bake.pages[1], allowed = back;
-            const auto planes_in = [&](Page& page) {
-                return MutableCoefficientPlanes(page.width, page.height, std::span(page.planes), traits.count);
-            };
-            unpack(layout, packed, planes_in(back));
-            allowed_error(storage, traits, planes_of(bake.pages[1], traits.count), planes_in(allowed));
+        WriteBakeOptions options;
+        options.storages.emplace();
+        for (const Storage& storage : storages())
+            if (suits(storage, traits)) options.storages->emplace_back(storage.name);
+        const test::TestFolder folder("bake-textures");
+        ASSERT_TRUE(write_bake(folder.path(), bake, options));
+        const auto manifest = read_manifest(folder.path());
+        ASSERT_TRUE(manifest) << manifest.error().message;
+        const Page& page = bake.pages[0];
+        for (const std::string& name : *options.storages) {
+            SCOPED_TRACE(std::string(codec) + " " + name);
+            const Storage& storage = *find_storage(name).value();
+            const Page back = page_in(folder.path(), manifest->pages[0], storage, page, traits.count);
+            Page allowed = page;
+            allowed_error(storage, traits, {page.width, page.height, std::span(page.planes), traits.count},
+                          {page.width, page.height, std::span(allowed.planes), traits.count});
             for (std::size_t p = 0; p < 3 * traits.count; ++p)
-                for (std::size_t i = 0; i < back.size(); ++i) {
-                    const float value = bake.pages[1].planes[p][i];
+                for (std::size_t i = 0; i < page.size(); ++i) {
+                    const float value = page.planes[p][i];
                     EXPECT_LE(std::abs(back.planes[p][i] - value), allowed.planes[p][i] + 1e-6f * std::abs(value));
                 }
         }
@@ -236,7 +246,7 @@ TEST(BakeFolder, FullDiskChangesNothing) {
 TEST(BakeFolder, MorePagesThanFilesMayBeOpen) {
     const test::TestFolder folder("bake-many");
     Bake bake = some_bake("sh1/moments/convolution");
-    for (int i = 0; i < 45; ++i) {
+    for (int i = 0; i < 20; ++i) {
         bake.pages.push_back(bake.pages[1]);
         bake.normals.push_back(bake.normals[1]);
     }
@@ -247,7 +257,7 @@ TEST(BakeFolder, MorePagesThanFilesMayBeOpen) {
     const auto status = write_bake(folder.path(), bake, {.storages = {{"bc6h-signed"}}});
     ::setrlimit(RLIMIT_NOFILE, &old);
     ASSERT_TRUE(status) << status.error().message;
-    EXPECT_EQ(folder.entries(), (1u + 4 + 1) * 47 + 3);
+    EXPECT_EQ(folder.entries(), (1u + 4 + 1) * 22 + 3);  // more than may be open
     EXPECT_TRUE(read_bake(folder.path()));
     // And where the last one does not fit, nothing is left, temporary names included.
     bake.pages.back().chart[0] = (1u << 24) + 1;
