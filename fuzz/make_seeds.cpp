@@ -20,6 +20,7 @@
 #include "io/write_file.h"
 #include "io/write_image.h"
 #include "io_files.h"
+#include "lobelia/pack.h"
 #include "scene/embedded.h"
 #include "scene/gltf_write.h"
 
@@ -106,9 +107,13 @@ bool write_bake_seeds(const std::filesystem::path& folder) {
     const Bake world = test::some_bake("sh1/moments/convolution"),
                tangent = test::some_bake("sg12h/moments/exact", Frame::tangent);
     Manifest textured = world.manifest;
-    textured.pages = {{"page-0.exr", {{"half", "page-0.ktx2", "half", {"c0", "c1"}}}}, {"page-1.exr", {}}};
+    const CoefficientTraits traits = coefficient_traits(*make_codec(textured.options.codec)->encoder());
+    BakedPage page{"page-0.exr", {}, "page-0.validity.ktx2"};
+    for (const auto& texture : find_storage("ratio8").value()->layout(traits).textures)
+        page.textures.push_back({"ratio8", "page-0." + texture.name + ".ktx2", texture});
+    textured.pages = {page, {"page-1.exr", {}, {}}};
     Manifest plain = tangent.manifest;
-    plain.pages = textured.pages;
+    plain.pages = {{"page-0.exr", {}, {}}, {"page-1.exr", {}, {}}};
     return write(folder, "bake", to_json_text(textured)) && write(folder, "plain", to_json_text(plain)) &&
            write(folder, "probes", to_json_text(*world.probes, "probes.bin"));
 }

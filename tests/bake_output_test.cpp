@@ -121,8 +121,8 @@ TEST_F(BakeOutput, HostileManifestsAreRefusedWithTheirPlace) {
         std::string from, to, says;
     };
     const std::vector<Case> cases = {
-        {"\"lobelia_bake\": 1", "\"lobelia_bake\": 2", "lobelia_bake: version 2, but this program reads version 1"},
-        {"\"lobelia_bake\": 1", "\"lobelia\": 1", "is it from `lobelia bake`?"},
+        {"\"lobelia_bake\": 2", "\"lobelia_bake\": 1", "lobelia_bake: version 1, but this program reads version 2"},
+        {"\"lobelia_bake\": 2", "\"lobelia\": 1", "is it from `lobelia bake`?"},
         {"0123456789abcdef", "0123456789abcdeg", "scene.hash: not 16 hexadecimal digits"},
         {"sh1/moments/convolution", "sh1/moments/none", "codec.name: unknown evaluator"},
         {"sh1/moments/convolution", "sg12h/moments/exact", "codec.coefficients: sg12h has 12"},
@@ -135,6 +135,15 @@ TEST_F(BakeOutput, HostileManifestsAreRefusedWithTheirPlace) {
         {"page-1.exr", "..", "layout.pages[1].file: not the name of a file"},
         {"page-1.exr", "C:page.exr", "layout.pages[1].file: not the name of a file"},
         {"page-1.exr", "page-0.exr", "named twice"},
+        {"\"float16\"", "\"flaot16\"", "layout.pages[0].textures[0].storage: unknown storage \"flaot16\""},
+        {"\"name\": \"v1\"", "\"name\": \"v3\"", "textures[1].name: no texture of the storage float16"},
+        {"\"rgba16f\"", "\"rgba8\"", "layout.pages[0].textures[0].format: not \"rgba16f\""},
+        {"\"vk_format\": 97", "\"vk_format\": 37", "layout.pages[0].textures[0].vk_format: not 97"},
+        {"\"coefficient\": 1", "\"coefficient\": 2", "layout.pages[0].textures[0].channels[3].coefficient: not 1"},
+        {"\"offset\": 0.5", "\"offset\": 0.25", "layout.pages[0].textures[4].channels[0].offset: not 0.5"},
+        {"\"scale\": 1.0", "\"scale\": 0.0", "layout.pages[0].textures[0].scale: 0 is not in"},
+        {"page-0.float16.v1.ktx2", "page-0.float16.v0.ktx2", "named twice"},
+        {"page-0.validity.ktx2", "a/b", "layout.pages[0].validity: not the name of a file"},
         {"page-1.exr", "page-9.exr", "page-9.exr: cannot be read"},
         {"probes.json", "bake.jsonn", "bake.jsonn: cannot be read: No such file"},
         {"\"page\": 1", "\"page\": 2", "objects[2].page: not a whole number from 0 to 1"},

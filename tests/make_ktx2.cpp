@@ -1,9 +1,11 @@
-// Writes textures of random pages, and beside each the numbers that it should hold as plain float32, for readers that
-// are not ours. make_ktx2 FOLDER
+// Writes a texture of every pixel format, and beside each the numbers that it should hold as plain float32 (NAME.f32,
+// channels side by side) and its bytes (NAME.bin), for readers that are not ours; and a bake in every storage that
+// suits it. make_ktx2 FOLDER
 #include <cstdio>
 
 #include "bake_files.h"
-#include "baker/output/page_textures.h"
+#include "io/write_ktx2.h"
+#include "lobelia/pack.h"
 
 namespace lobelia {
 namespace {
@@ -20,57 +22,63 @@ void write(const std::filesystem::path& path, std::span<const std::byte> bytes) 
     require(file.commit());
 }
 
-/// Layer after layer, row after row, red, green, blue, alpha.
-std::vector<float> expected(const Page& page, const TexturePacking& packing) {
-    std::size_t layers = 0;
-    for (const auto& array : packing.textures()) layers += array.layers.size();
-    std::vector<float> values(4 * page.size() * layers);
-    std::vector<Rgb> c(packing.coefficients()), packed(layers);
-    for (std::size_t i = 0; i < page.size(); ++i) {
-        for (std::size_t k = 0; k < c.size(); ++k)
-            c[k] = {page.planes[3 * k][i], page.planes[3 * k + 1][i], page.planes[3 * k + 2][i]};
-        packing.pack(c, packed);
-        for (std::size_t layer = 0; layer < layers; ++layer) {
-            float* texel = values.data() + 4 * (layer * page.size() + i);
-            texel[0] = packed[layer].r;
-            texel[1] = packed[layer].g;
-            texel[2] = packed[layer].b;
-            texel[3] = page.validity[i];
-        }
+constexpr std::size_t k_width = 21, k_height = 34;
+
+/// Noise over many magnitudes, within the format's limits; and what lies beyond them.
+std::vector<float> some_values(const FormatInfo& format, std::mt19937& generator) {
+    std::vector<float> values(k_width * k_height);
+    const double highest = std::min(format.highest, 1e6), lowest = std::max(format.lowest, -1e6);
+    for (float& v : values) {
+        const double share = static_cast<double>(generator()) / 4294967296.0;
+        v = static_cast<float>(lowest < 0 && generator() % 2 ? lowest * share : highest * share);
+        if (highest > 1) v = std::ldexp(v, -static_cast<int>(generator() % 24));
     }
+    if (highest == 1) values[0] = 1.5f;
+    if (lowest == 0) values[1] = -0.5f;
     return values;
 }
 
-void make(const std::filesystem::path& folder, const std::string& codec) {
-    Bake bake = test::some_bake(codec);
-    Page& page = bake.pages[0];
-    // What halves do with large, small and very small numbers.
-    for (std::size_t i = 1; i < 5; ++i) page.planes[0][i] = std::pow(10.0f, static_cast<float>(2 * i) - 9);
-    page.planes[1][6] = 1e6f;
-    const auto basis = make_codec(codec)->basis().packings();
-    for (const auto& packing : basis) {
-        const std::vector<float> values = expected(page, *packing);
-        std::size_t layer = 0;
-        for (std::size_t i = 0; i < packing->textures().size(); ++i) {
-            const auto array = packing->textures()[i];
-            const std::string stem = parse_codec_name(codec)->basis + "-" + packing->name() + "-" + array.name;
-            auto file = StagedFile::create(folder / (stem + ".ktx2")).value();
-            require(write_page_texture(file, page, *packing, i, codec));
-            require(file.commit());
-            const std::size_t size = 4 * page.size();
-            write(folder / (stem + ".f32"),
-                  std::as_bytes(std::span(values).subspan(layer * size, array.layers.size() * size)));
-            layer += array.layers.size();
-        }
-    }
+void make_texture(const std::filesystem::path& folder, PixelFormat pixel_format) {
+    const FormatInfo& format = info(pixel_format);
+    std::mt19937 generator(7);
+    std::vector<std::vector<float>> channels;
+    std::vector<const float*> pointers;
+    for (std::size_t k = 0; k < format.channels; ++k) channels.push_back(some_values(format, generator));
+    for (const auto& channel : channels) pointers.push_back(channel.data());
+    std::vector<float> side_by_side;
+    for (std::size_t i = 0; i < k_width * k_height; ++i)
+        for (const auto& channel : channels) side_by_side.push_back(channel[i]);
+
+    std::vector<std::byte> data(byte_size(pixel_format, k_width, k_height));
+    encode_texels(pixel_format, k_width, k_height, pointers, data);
+    const std::string name(format.name);
+    auto file = StagedFile::create(folder / (name + ".ktx2")).value();
+    require(write_ktx2(file, {pixel_format, k_width, k_height, data, {{"lobelia.format", name}, {"a", "text"}}}));
+    require(file.commit());
+    write(folder / (name + ".bin"), data);
+    write(folder / (name + ".f32"), std::as_bytes(std::span(side_by_side)));
+}
+
+/// Every storage that suits the codec; numbers that bytes and halves hold exactly where they can.
+void make_bake(const std::filesystem::path& folder, const std::string& codec) {
+    const Bake bake = test::some_bake(codec);
+    const auto traits = coefficient_traits(*make_codec(codec)->encoder());
+    WriteBakeOptions options;
+    options.storages.emplace();
+    for (const Storage& storage : storages())
+        if (suits(storage, traits)) options.storages->emplace_back(storage.name);
+    require(write_bake(folder, bake, options));
 }
 
 }  // namespace
 }  // namespace lobelia
 
 int main(int argc, char** argv) {
+    using lobelia::PixelFormat;
     if (argc != 2) return 2;
-    for (const char* codec : {"sh1/moments/convolution", "sh2/moments/convolution", "sg12/moments/exact"})
-        lobelia::make(argv[1], codec);
+    for (int i = 0; i <= static_cast<int>(PixelFormat::bc6h_signed); ++i)
+        lobelia::make_texture(argv[1], static_cast<PixelFormat>(i));
+    lobelia::make_bake(std::filesystem::path(argv[1]) / "sh1", "sh1/moments/convolution");
+    lobelia::make_bake(std::filesystem::path(argv[1]) / "sg12", "sg12/nnls/exact");
     return 0;
 }

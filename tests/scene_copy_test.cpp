@@ -35,7 +35,7 @@ TEST(SceneCopy, LightmapUvsAreThePages) {
     const test::TestFolder folder("scene-copy");
     const Packed packed(cornell_scene());
     ASSERT_TRUE(
-        write_bake(folder.path(), packed.bake, {.packings = std::vector<std::string>{}, .scene = &packed.scene}));
+        write_bake(folder.path(), packed.bake, {.storages = std::vector<std::string>{}, .scene = &packed.scene}));
     const auto manifest = read_manifest(folder.path());
     ASSERT_TRUE(manifest && manifest->scene);
     EXPECT_TRUE(manifest->warnings.empty());

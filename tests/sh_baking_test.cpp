@@ -133,5 +133,86 @@ TEST(ShBaking, StoredRatiosAreThoseOfTheStorage) {
         }
 }
 
+/// A texel as a shader reads it, all channels of a texture.
+std::array<float, 4> texel_of(const PackedTexture& texture, std::size_t i) {
+    std::array<std::vector<float>, 4> channels;
+    std::vector<float*> pointers;
+    for (std::size_t k = 0; k < info(texture.format).channels; ++k) {
+        channels[k].resize(texture.width * texture.height);
+        pointers.push_back(channels[k].data());
+    }
+    decode_texels(texture.format, texture.width, texture.height, texture.data, pointers);
+    std::array<float, 4> texel{};
+    for (std::size_t k = 0; k < pointers.size(); ++k) texel[k] = texture.scale * channels[k][i];
+    return texel;
+}
+
+TEST(ShBaking, ShadersReadTheIrradianceFromTheStorageOfRatios) {
+    // Light of a wide and of a narrow kind, and the extreme: all of it from one direction.
+    const auto basis = make_basis("sh1").value();
+    const auto encoder = make_encoder("moments", basis).value();
+    Samples one(1);
+    one.set(0, {normalize(Vec3{1, 2, -3}), {3, 1, 0}, 1});
+    for (const Samples& light : {some_samples(Domain::sphere), one}) {
+        Accumulator accumulator(encoder);
+        accumulator.add(light);
+        const std::vector<Rgb> c = accumulator.solve();
+        std::vector<std::vector<float>> values;
+        for (const Rgb& v : c)
+            for (const float channel : {v.r, v.g, v.b}) values.push_back({channel});
+        const TextureLayout layout = find_storage("ratio8").value()->layout(coefficient_traits(*encoder));
+        const auto textures =
+            pack(layout, CoefficientPlanes(1, 1, std::span<const std::vector<float>>(values), c.size()));
+        ASSERT_EQ(textures.size(), 4u);
+
+        // The lines of docs/bake-format.md.
+        const auto c0 = texel_of(textures[0], 0), t0 = texel_of(textures[1], 0), t1 = texel_of(textures[2], 0),
+                   t2 = texel_of(textures[3], 0);
+        const auto l = [](float stored) { return 2 * stored - 1; };
+        const Rgb y{l(t0[0]), l(t0[1]), l(t0[2])}, z{l(t0[3]), l(t1[0]), l(t1[1])}, x{l(t1[2]), l(t1[3]), l(t2[0])};
+        const auto evaluator = basis->evaluator("convolution-signed");
+        const Directions normals = test::random_directions(Domain::sphere, 200, 2);
+        Colours expected(normals.size());
+        irradiance(*evaluator, c, normals, expected);
+        for (std::size_t i = 0; i < normals.size(); ++i) {
+            const Vec3 n = direction_at(normals, i);
+            for (std::size_t k = 0; k < 3; ++k) {
+                const float L0 = 0.28209479f * c0[k];
+                const auto of = [&](const Rgb& colour) { return (&colour.r)[k]; };
+                const float E = 2 * static_cast<float>(k_pi) * L0 * (0.5f + of(x) * n.x + of(y) * n.y + of(z) * n.z);
+                // Nine bits of L0, and half a step of each component of L1.
+                const float brightest = 0.28209479f * std::max({c0[0], c0[1], c0[2]});
+                const float allowed =
+                    2 * static_cast<float>(k_pi) * (1.5f * 0x1p-9f * brightest + L0 * std::sqrt(3.0f) / 255);
+                EXPECT_NEAR(E, expected.channel(k)[i], 1.01f * allowed + 1e-6f);
+            }
+        }
+    }
+}
+
+TEST(ShBaking, RatiosOfTheStorageAreL1WithoutRounding) {
+    // E = 2 pi L0 (1/2 + L1.n), with L1 = 2 t - 1 from the layout's own scales and offsets.
+    const auto basis = make_basis("sh1").value();
+    const auto encoder = make_encoder("moments", basis).value();
+    Accumulator accumulator(encoder);
+    accumulator.add(some_samples(Domain::sphere));
+    const std::vector<Rgb> c = accumulator.solve();
+    Vec3 L1{};
+    for (const auto& texture : find_storage("ratio8").value()->layout(coefficient_traits(*encoder)).textures)
+        for (const StoredChannel& channel : texture.channels) {
+            if (channel.form != StoredChannel::Form::ratio || channel.component != Component::r) continue;
+            const float t = channel.scale * c[channel.coefficient].r / c[0].r + channel.offset;
+            (channel.coefficient == 1 ? L1.y : channel.coefficient == 2 ? L1.z : L1.x) = 2 * t - 1;
+        }
+    const Directions normals = test::random_directions(Domain::sphere, 200, 3);
+    Colours expected(normals.size());
+    irradiance(*basis->evaluator("convolution-signed"), c, normals, expected);
+    for (std::size_t i = 0; i < normals.size(); ++i) {
+        const float L0 = 0.28209479f * c[0].r;
+        const float E = 2 * static_cast<float>(k_pi) * L0 * (0.5f + dot(L1, direction_at(normals, i)));
+        EXPECT_NEAR(E, expected.channel(0)[i], 3e-6f * 2 * static_cast<float>(k_pi) * L0);
+    }
+}
+
 }  // namespace
 }  // namespace lobelia

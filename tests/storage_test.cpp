@@ -178,6 +178,64 @@ TEST(Storages, BlackStaysBlack) {
         }
 }
 
+TEST(Storages, OneAfterTheOtherIsTheSame) {
+    // Wide enough for many strips, with a height that no block divides.
+    for (const auto& [name, traits] : all_traits())
+        for (const Storage& storage : storages()) {
+            if (!suits(storage, traits) || traits.count > 4) continue;
+            SCOPED_TRACE(std::string(storage.name) + " of " + name);
+            const Page page = random_page(traits, 700, 21, 3, Texture::noisy);
+            const TextureLayout layout = storage.layout(traits);
+            const auto together = pack(layout, page.view());
+            std::size_t i = 0;
+            const auto same = [&](const TextureLayout::Texture& texture, const PackedTexture& packed) -> Status {
+                EXPECT_EQ(texture.name, packed.name);
+                EXPECT_EQ(packed.name, together[i].name);
+                EXPECT_EQ(packed.scale, together[i].scale);
+                EXPECT_EQ(packed.data, together[i].data);
+                ++i;
+                return Done{};
+            };
+            EXPECT_TRUE(pack_each(layout, page.view(), same));
+            EXPECT_EQ(i, together.size());
+            // The first error ends it.
+            i = 0;
+            const auto ended = [&](const auto&, const auto&) -> Status { return ++i, Error{"full"}; };
+            EXPECT_FALSE(pack_each(layout, page.view(), ended));
+            EXPECT_EQ(i, 1u);
+        }
+}
+
+TEST(Storages, RowsArePackedAsIfAlone) {
+    // Eight rows, which no block and no sub-sampled texel crosses, are the same bytes on their own as in a page of many
+    // strips; but where the page's largest value decides by what it is divided.
+    for (const auto& [name, traits] : all_traits())
+        for (const Storage& storage : storages()) {
+            if (!suits(storage, traits) || traits.count > 4) continue;
+            SCOPED_TRACE(std::string(storage.name) + " of " + name);
+            const Page page = random_page(traits, 700, 21, 3, Texture::noisy);
+            const TextureLayout layout = storage.layout(traits);
+            const auto whole = pack(layout, page.view());
+            std::vector<std::size_t> at(whole.size());
+            for (std::size_t y = 0; y < 21; y += 8) {
+                CoefficientPlanes band = page.view();
+                band.height = std::min<std::size_t>(8, 21 - y);
+                for (const float*& plane : band.planes) plane += y * band.width;
+                const auto part = pack(layout, band);
+                for (std::size_t i = 0; i < part.size(); ++i) {
+                    if (whole[i].scale == part[i].scale) {
+                        EXPECT_TRUE(std::equal(part[i].data.begin(), part[i].data.end(),
+                                               whole[i].data.begin() + static_cast<std::ptrdiff_t>(at[i])))
+                            << part[i].name << ", row " << y;
+                    } else {
+                        EXPECT_EQ(storage.name, "rgbm");
+                    }
+                    at[i] += part[i].data.size();
+                }
+            }
+        }
+}
+
 TEST(Storages, EachChannelIsStoredOnce) {
     for (const auto& [name, traits] : all_traits())
         for (const Storage& storage : storages()) {
@@ -265,6 +323,20 @@ TEST(Storages, UnknownNamesAreErrors) {
     const auto unknown = find_storage("flaot16");
     ASSERT_FALSE(unknown);
     EXPECT_NE(unknown.error().message.find("float16"), std::string::npos);
+}
+
+TEST(Storages, OnesThatDoNotSuitAreErrorsThatSayWhatDoes) {
+    const CoefficientTraits traits{3, false, false, {}};
+    const auto found = find_storages(std::array<std::string, 3>{"float16", "bc6h-signed", "float16"}, traits);
+    ASSERT_TRUE(found);
+    ASSERT_EQ(found->size(), 2u);
+    EXPECT_EQ((*found)[1]->name, "bc6h-signed");
+    const auto ratios = find_storages(std::array<std::string, 1>{"ratio8"}, traits);
+    ASSERT_FALSE(ratios);
+    EXPECT_NE(ratios.error().message.find("what suits here: float32, float16, bc6h-signed"), std::string::npos);
+    EXPECT_FALSE(find_storages(std::array<std::string, 1>{"float17"}, traits));
+    EXPECT_EQ(default_storages(traits).size(), 1u);
+    EXPECT_EQ(default_storages({3, false, true, {1, 2, 2}}).size(), 2u);
 }
 
 TEST(LeadBounds, HoldForAnyLightThatIsNotNegative) {

@@ -1,6 +1,7 @@
 // lobelia bake and lobelia merge: a scene in, lightmaps and probes out.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -19,6 +20,7 @@ struct BakeArguments {
     std::string size = "512x512", memory = "2G", shard, shard_by = "tiles", frame = "world", directions = "uniform",
                 layout = "automatic", probes;
     std::string precision = "half", rebake_object, picture_size = "640x400";
+    std::vector<std::string> storages;
     std::uint32_t add_samples = 0;
     bool resume = false, plain = false, preflight = false;
     bool no_denoise = false, no_seams = false, no_dilate = false, no_push_out = false, no_page = false;
@@ -69,6 +71,14 @@ Result<std::optional<std::array<Vec3, 2>>> parse_box(const std::string& text) {
     return std::optional(std::array{Vec3{v[0], v[1], v[2]}, Vec3{v[3], v[4], v[5]}});
 }
 
+/// None for the default; "none" for an empty list.
+Result<std::optional<std::vector<std::string>>> to_storages(const std::vector<std::string>& names) {
+    if (names.empty()) return std::optional<std::vector<std::string>>();
+    if (std::find(names.begin(), names.end(), "none") == names.end()) return std::optional(names);
+    if (names.size() > 1) return Error{"--storage: \"none\" goes with no other"};
+    return std::optional(std::vector<std::string>());
+}
+
 Switch off_if(bool flag) { return flag ? Switch::off : Switch::on; }
 
 Result<BakeJob> to_job(const BakeArguments& options) {
@@ -103,6 +113,9 @@ Result<BakeJob> to_job(const BakeArguments& options) {
     job.finish = {off_if(options.no_denoise), off_if(options.no_seams), off_if(options.no_dilate)};
     job.page = !options.no_page;
     job.precision = options.precision == "half" ? ExrOptions::Precision::half : ExrOptions::Precision::full;
+    auto storages = to_storages(options.storages);
+    if (!storages) return storages.error();
+    job.storages = std::move(*storages);
     if (!options.probes.empty()) {
         const auto box = parse_box(options.probes);
         if (!box) return box.error();
@@ -224,6 +237,11 @@ void add_output_options(CLI::App& command, BakeArguments& o) {
     command.add_option("--precision", o.precision, "Of the EXR pages, half or float")
         ->check(CLI::IsMember({"half", "float"}))
         ->capture_default_str();
+    command
+        .add_option("--storage", o.storages,
+                    "Write KTX2 textures in this storage, see lobelia list --storages; may be repeated; none: no "
+                    "textures (default: float16, and ratio8 where it suits)")
+        ->allow_extra_args(false);
     command.add_flag("--no-denoise", o.no_denoise, "Leave noise as it is");
     command.add_flag("--no-seams", o.no_seams, "Leave seams between charts as they are");
     command.add_flag("--no-dilate", o.no_dilate, "Leave texels that nothing covers at 0");

@@ -6,6 +6,7 @@
 #include "baker/bake/checkpoint.h"
 #include "baker/bake/merge.h"
 #include "baker/output/bake_folder.h"
+#include "baker/output/page_textures.h"
 #include "cli/common.h"
 #include "cli/interrupt.h"
 #include "io/counted.h"
@@ -131,6 +132,7 @@ Status JobRun::prepare() {
     if (start_ == JobStart::fresh && fs::exists(states, code))
         return Error{states.string() +
                      ": is the checkpoint of an earlier bake; continue it with --resume, or remove it"};
+    if (const auto textures = PageTextures::make(job_.bake.codec, job_.storages); !textures) return textures.error();
     auto loaded = load_scene_to_bake(job_.scene);
     if (!loaded) return loaded.error();
     loaded_ = std::move(*loaded);
@@ -202,7 +204,7 @@ Status JobRun::write() {
         if (!made) return made.error();
         page = std::move(*made);
     }
-    if (auto status = write_bake(job_.out, bake_, {.scene = &loaded_->scene}); !status) return status;
+    if (auto status = write_bake(job_.out, bake_, {job_.storages, &loaded_->scene}); !status) return status;
     const fs::path shown = job_.out / (job_.page ? "bake.html" : "bake.json");
     if (job_.page)
         if (auto status = write_file_atomically(shown, page); !status) return status;

@@ -24,6 +24,7 @@ struct BakeJob {
     FinishSteps finish;
     ProbeOptions probes;
     ExrOptions::Precision precision = ExrOptions::Precision::half;  ///< of the pages
+    std::optional<std::vector<std::string>> storages;               ///< of their textures: WriteBakeOptions
     bool page = true;                                               ///< write the HTML page with its pictures
     std::uint32_t picture_samples = 64;                             ///< of each of their pixels
     std::size_t picture_width = 640, picture_height = 400;

@@ -78,6 +78,7 @@ void fields(auto& archive, BakeJob& job) {
     archive.group("finish", job.finish);
     archive.group("probes", job.probes);
     archive.choice("precision", job.precision, k_precision_names);
+    archive.texts("storages", job.storages);
     archive.flag("page", job.page);
     archive.whole("picture_samples", job.picture_samples, 1, k_any_u32);
     archive.whole("picture_width", job.picture_width, 1, 16384);

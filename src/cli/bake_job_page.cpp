@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "baker/bake/sites.h"
+#include "baker/output/page_textures.h"
 #include "cli/bake_job.h"
 #include "cli/common.h"
 #include "report/bake_page.h"
@@ -59,6 +60,7 @@ Result<std::string> job_page(const BakeJob& job, const Scene& scene, const Baker
 
 Status preflight_job(const BakeJob& job) {
     if (auto status = check_folder(job.out); !status) return status;
+    if (const auto textures = PageTextures::make(job.bake.codec, job.storages); !textures) return textures.error();
     auto loaded = load_scene_to_bake(job.scene);
     if (!loaded) return loaded.error();
     for (const auto& warning : loaded->warnings) complain("lobelia: warning: " + warning);

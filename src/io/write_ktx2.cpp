@@ -1,36 +1,20 @@
 // KTX 2.0 files, after "KTX File Format Specification, Version 2.0" (Khronos 2021) and "Khronos Data Format
-// Specification" (2019), chapter 5.
+// Specification, version 1.3" (2019), chapter 5.
 #include "io/write_ktx2.h"
 
-#include <OpenEXR/ImfRgba.h>
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <array>
 #include <bit>
-#include <cmath>
-#include <cstring>
+#include <cassert>
+#include <cstdint>
+#include <numeric>
 #include <vector>
 
 #include "io/image_checks.h"
 
 namespace lobelia {
 namespace {
-
-constexpr std::size_t k_most_layers = 2048;
-
-/// What the file says of a texel format.
-struct FormatFacts {
-    std::uint32_t vk_format;
-    std::uint32_t component_bytes;
-    std::uint32_t channel_flags;  ///< of the data format descriptor: float, signed
-    std::uint32_t lowest, highest;
-};
-
-FormatFacts facts_of(TexelFormat format) {
-    // VK_FORMAT_R16G16B16A16_SFLOAT from -1 to 1, VK_FORMAT_R8G8B8A8_UNORM from 0 to 255: what counts as 1.
-    if (format == TexelFormat::half) return {97, 2, 0xc0, std::bit_cast<std::uint32_t>(-1.0f), 0x3f800000};
-    return {37, 1, 0, 0, 255};
-}
 
 /// Bytes in the file's order, little-endian.
 class Bytes {
@@ -54,23 +38,108 @@ class Bytes {
     std::vector<std::byte> data_;
 };
 
-/// The basic data format descriptor: four channels of one kind side by side.
-Bytes descriptor(const FormatFacts& facts) {
-    constexpr std::array<std::uint32_t, 4> k_channels = {0, 1, 2, 15};  // R, G, B, A of the model RGBSDA
-    constexpr std::uint32_t k_block = 24 + 16 * k_channels.size();
+// Channels of the model RGBSDA; BC6H has one, 0. Qualifiers stand beside them.
+constexpr std::array<std::uint32_t, 4> k_rgba = {0, 1, 2, 15};
+constexpr std::uint32_t k_exponent = 0x20, k_signed = 0x40, k_float = 0x80;
+constexpr std::uint32_t k_one = std::bit_cast<std::uint32_t>(1.0f), k_minus_one = std::bit_cast<std::uint32_t>(-1.0f);
+
+/// Bits of a block that hold a channel, and what of them counts as -1 or 0, and 1.
+struct Sample {
+    std::uint32_t first_bit, bits, channel;  ///< with qualifiers
+    std::uint32_t lower, upper;
+};
+
+/// What the file says of a pixel format, besides its VkFormat.
+struct FormatFacts {
+    std::uint32_t model = 1;       ///< RGBSDA, or 133, BC6H
+    std::uint32_t type_bytes = 1;  ///< of what would be swapped between byte orders
+    std::vector<Sample> samples;
+};
+
+/// Channels of one size, from the first bit on.
+FormatFacts floats(std::uint32_t count, std::uint32_t bits) {
+    FormatFacts facts{1, bits / 8, {}};
+    for (std::uint32_t i = 0; i < count; ++i)
+        facts.samples.push_back({i * bits, bits, k_rgba[i] | k_float | k_signed, k_minus_one, k_one});
+    return facts;
+}
+FormatFacts bytes(std::uint32_t count) {
+    FormatFacts facts;
+    for (std::uint32_t i = 0; i < count; ++i) facts.samples.push_back({i * 8, 8, k_rgba[i], 0, 255});
+    return facts;
+}
+
+FormatFacts ten_bits() {
+    return {1, 4, {{0, 10, 0, 0, 1023}, {10, 10, 1, 0, 1023}, {20, 10, 2, 0, 1023}, {30, 2, 15, 0, 3}}};
+}
+
+/// Each colour has nine bits of its own, and the five of the exponent, whose bias is 15. The bounds are those that the
+/// specification gives for this very format.
+FormatFacts shared_exponent() {
+    FormatFacts facts{1, 4, {}};
+    for (std::uint32_t i = 0; i < 3; ++i) {
+        facts.samples.push_back({9 * i, 9, i, 0, 8448});
+        facts.samples.push_back({27, 5, i | k_exponent, 15, 31});
+    }
+    return facts;
+}
+
+FormatFacts bc6h(std::uint32_t qualifiers) {
+    constexpr std::uint32_t k_model_bc6h = 133;
+    return {k_model_bc6h, 1, {{0, 128, k_float | qualifiers, qualifiers == k_signed ? k_minus_one : 0, k_one}}};
+}
+
+FormatFacts facts_of(PixelFormat format) {
+    switch (format) {
+        case PixelFormat::r32f:
+            return floats(1, 32);
+        case PixelFormat::rg32f:
+            return floats(2, 32);
+        case PixelFormat::rgba32f:
+            return floats(4, 32);
+        case PixelFormat::r16f:
+            return floats(1, 16);
+        case PixelFormat::rg16f:
+            return floats(2, 16);
+        case PixelFormat::rgba16f:
+            return floats(4, 16);
+        case PixelFormat::r8:
+            return bytes(1);
+        case PixelFormat::rg8:
+            return bytes(2);
+        case PixelFormat::rgba8:
+        case PixelFormat::rgbe8:
+        case PixelFormat::rgbm8:
+        case PixelFormat::logluv32:
+            return bytes(4);
+        case PixelFormat::rgb10a2:
+            return ten_bits();
+        case PixelFormat::rgb9e5:
+            return shared_exponent();
+        case PixelFormat::bc6h_unsigned:
+            return bc6h(0);
+        case PixelFormat::bc6h_signed:
+            return bc6h(k_signed);
+    }
+    assert(false);
+    return {};
+}
+
+/// The basic data format descriptor.
+Bytes descriptor(const FormatFacts& facts, const FormatInfo& format) {
+    const std::size_t block = 24 + 16 * facts.samples.size();
     Bytes bytes;
-    bytes.u32(4 + k_block);
-    bytes.u32(0);                          // vendor Khronos, basic format
-    bytes.u32(2 | k_block << 16);          // version 1.3
-    bytes.u32(1 | 1 << 8 | 1 << 16);       // model RGBSDA, primaries of BT.709, linear, straight alpha
-    bytes.u32(0);                          // blocks of 1 x 1 texel
-    bytes.u64(4 * facts.component_bytes);  // bytes of plane 0; there are no others
-    for (std::uint32_t i = 0; i < k_channels.size(); ++i) {
-        const std::uint32_t bits = 8 * facts.component_bytes;
-        bytes.u32(i * bits | (bits - 1) << 16 | (k_channels[i] | facts.channel_flags) << 24);
-        bytes.u32(0);  // at the texel's place
-        bytes.u32(facts.lowest);
-        bytes.u32(facts.highest);
+    bytes.u32(4 + block);
+    bytes.u32(0);                                             // vendor Khronos, basic format
+    bytes.u32(2 | block << 16);                               // version 1.3
+    bytes.u32(facts.model | 1 << 8 | 1 << 16);                // primaries of BT.709, linear, straight alpha
+    bytes.u32((format.block - 1) | (format.block - 1) << 8);  // texels of a block, less one
+    bytes.u64(format.block_bytes);                            // bytes of plane 0; there are no others
+    for (const Sample& sample : facts.samples) {
+        bytes.u32(sample.first_bit | (sample.bits - 1) << 16 | sample.channel << 24);
+        bytes.u32(0);  // at the block's place
+        bytes.u32(sample.lower);
+        bytes.u32(sample.upper);
     }
     return bytes;
 }
@@ -88,79 +157,40 @@ Bytes key_values(std::map<std::string, std::string> metadata) {
     return bytes;
 }
 
-/// All before the texels; they begin at a multiple of a texel's size, which is one of 4.
-Bytes beginning(const Ktx2Texture& texture, const FormatFacts& facts, std::uint64_t texel_bytes) {
+/// All before the texels; they begin at a multiple of a block's size and of 4.
+Bytes beginning(const Ktx2Texture& texture) {
     constexpr std::size_t k_header = 80, k_level = 24;
-    const Bytes format = descriptor(facts), metadata = key_values(texture.metadata);
-    const std::size_t format_begin = k_header + k_level, metadata_begin = format_begin + format.size();
-    const std::size_t alignment = 4 * facts.component_bytes;
+    const FormatInfo& format = info(texture.format);
+    const FormatFacts facts = facts_of(texture.format);
+    const Bytes described = descriptor(facts, format), metadata = key_values(texture.metadata);
+    const std::size_t format_begin = k_header + k_level, metadata_begin = format_begin + described.size();
+    const std::size_t alignment = std::lcm(format.block_bytes, std::size_t{4});
     const std::size_t texels_begin = (metadata_begin + metadata.size() + alignment - 1) / alignment * alignment;
     Bytes bytes;
     bytes.text("\xabKTX 20\xbb\r\n\x1a\n");
-    for (std::uint64_t value : {std::uint64_t{facts.vk_format}, std::uint64_t{facts.component_bytes},
-                                std::uint64_t{texture.width}, std::uint64_t{texture.height}})
+    for (std::size_t value :
+         {std::size_t{format.vk_format}, std::size_t{facts.type_bytes}, texture.width, texture.height})
         bytes.u32(value);
-    for (std::uint64_t value : {std::uint64_t{0}, std::uint64_t{texture.layers}}) bytes.u32(value);  // depth, layers
-    for (std::uint64_t value : {1, 1, 0}) bytes.u32(value);  // faces, levels, no supercompression
-    for (std::size_t value : {format_begin, format.size(), metadata_begin, metadata.size()}) bytes.u32(value);
-    for (std::uint64_t value : {std::uint64_t{0}, std::uint64_t{0}}) bytes.u64(value);  // no supercompression data
-    for (std::uint64_t value : {std::uint64_t{texels_begin}, texel_bytes, texel_bytes}) bytes.u64(value);
-    bytes.append(format);
+    for (std::uint64_t value : {0, 0, 1, 1, 0}) bytes.u32(value);  // depth, layers: none; faces, levels; no scheme
+    for (std::size_t value : {format_begin, described.size(), metadata_begin, metadata.size()}) bytes.u32(value);
+    for (std::uint64_t value : {0, 0}) bytes.u64(value);  // no data of a scheme
+    for (std::size_t value : {texels_begin, texture.data.size(), texture.data.size()}) bytes.u64(value);
+    bytes.append(described);
     bytes.append(metadata);
     bytes.pad_to(alignment);
     return bytes;
 }
 
-void store(std::span<const Rgba> texels, TexelFormat format, std::byte* target) {
-    for (const Rgba& texel : texels)
-        for (const float value : texel) {
-            if (format == TexelFormat::half) {
-                const half stored(std::isfinite(value) ? std::clamp(value, -65504.0f, 65504.0f) : value);
-                const std::uint16_t bits = stored.bits();
-                std::memcpy(target, &bits, sizeof bits);
-                target += sizeof bits;
-            } else {
-                const float cut = value > 0 ? std::min(value, 1.0f) : 0.0f;
-                *target++ = static_cast<std::byte>(std::lround(cut * 255));
-            }
-        }
-}
-
 }  // namespace
 
-Status write_ktx2(StagedFile& file, const Ktx2Texture& texture,
-                  const std::function<void(std::size_t y, std::span<Rgba> texels)>& fill) {
-    const auto [width, height, layers] = std::array{texture.width, texture.height, texture.layers};
+Status write_ktx2(StagedFile& file, const Ktx2Texture& texture) {
+    const auto [width, height] = std::array{texture.width, texture.height};
     constexpr auto k_most_side = static_cast<std::size_t>(io::k_most_side);
-    if (width == 0 || height == 0 || width > k_most_side || height > k_most_side || layers == 0 ||
-        layers > k_most_layers)
-        return Error{fmt::format("a texture of {} x {} texels and {} layers cannot be written", width, height, layers)};
-    const FormatFacts facts = facts_of(texture.format);
-    const std::size_t row_bytes = width * 4 * facts.component_bytes;
-    const Bytes begin = beginning(texture, facts, row_bytes * height * layers);
-    if (auto status = file.write(begin.data()); !status) return status;
-
-    // Gather some rows of all layers, then write each layer's part of them where it belongs.
-    constexpr std::size_t k_most_gathered = std::size_t{1} << 24;
-    const std::size_t band = std::clamp<std::size_t>(k_most_gathered / (row_bytes * layers), 1, height);
-    std::vector<Rgba> row(width * layers);
-    std::vector<std::byte> rows(row_bytes * layers * band);
-    for (std::size_t y = 0; y < height; y += band) {
-        const std::size_t count = std::min(band, height - y);
-        for (std::size_t i = 0; i < count; ++i) {
-            fill(y + i, row);
-            for (std::size_t layer = 0; layer < layers; ++layer)
-                store(std::span(row).subspan(layer * width, width), texture.format,
-                      rows.data() + (layer * band + i) * row_bytes);
-        }
-        for (std::size_t layer = 0; layer < layers; ++layer) {
-            const std::span part(rows.data() + layer * band * row_bytes, count * row_bytes);
-            auto status = file.seek(begin.size() + (layer * height + y) * row_bytes);
-            if (status) status = file.write(part);
-            if (!status) return status;
-        }
-    }
-    return Done{};
+    if (width == 0 || height == 0 || width > k_most_side || height > k_most_side)
+        return Error{fmt::format("a texture of {} x {} texels cannot be written", width, height)};
+    assert(texture.data.size() == byte_size(texture.format, width, height));
+    if (auto status = file.write(beginning(texture).data()); !status) return status;
+    return file.write(texture.data);
 }
 
 }  // namespace lobelia

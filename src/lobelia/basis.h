@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "lobelia/evaluator.h"
-#include "lobelia/texture_packing.h"
 
 namespace lobelia {
 
@@ -58,11 +57,6 @@ class Basis {
     /// How far E / pi of the best fit to a constant radiance of 1 is from 1 at most, read exactly, at normals that see
     /// the domain only.
     [[nodiscard]] virtual double furnace_bias() const { return 0.005; }
-
-    /// The ways to store coefficients in textures; the first is plain_packing.
-    [[nodiscard]] virtual std::vector<std::shared_ptr<const TexturePacking>> packings() const {
-        return {plain_packing(size())};
-    }
 
     /// The same radiance seen in a rotated frame, L'(R w) = L(w): a basis and coefficients that give it exactly.
     struct Rotated {

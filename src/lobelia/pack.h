@@ -16,6 +16,8 @@ struct CoefficientTraits {
 };
 
 [[nodiscard]] CoefficientTraits coefficient_traits(const Encoder& encoder);
+/// Of a basis whose encoder is not known: coefficients might be >= 0, and are taken to be.
+[[nodiscard]] CoefficientTraits coefficient_traits(const Basis& basis);
 
 /// A way to store coefficients; all of it is data.
 struct Storage {
@@ -32,6 +34,11 @@ struct Storage {
 [[nodiscard]] bool suits(const Storage& storage, const CoefficientTraits& traits);
 /// By name; the error of an unknown one lists the nearest.
 [[nodiscard]] Result<const Storage*> find_storage(std::string_view name);
+/// By names, each once; the error of one that does not suit says what it wants and which do.
+[[nodiscard]] Result<std::vector<const Storage*>> find_storages(std::span<const std::string> names,
+                                                                const CoefficientTraits& traits);
+/// What a bake is stored in where nothing is asked for: plain halves, and ratios in bytes where they suit.
+[[nodiscard]] std::vector<const Storage*> default_storages(const CoefficientTraits& traits);
 
 /// What `storage` may be off by at most, by its bound, for each value of `coefficients`, into planes of the same
 /// shape; HUGE_VALF where a value is outside of what it can hold: below 0 for formats without a sign, or beyond its

@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "baker/output/bake_fields.h"
 #include "baker/output/files_together.h"
 #include "baker/output/page_files.h"
@@ -22,55 +20,16 @@ constexpr const char* k_environment_name = "environment.exr";
 constexpr const char* k_probes_name = "probes.json";
 constexpr const char* k_probe_coefficients_name = "probes.bin";
 
-using Packings = std::vector<std::shared_ptr<const TexturePacking>>;
-
-/// The packings asked for, of the codec's basis.
-Result<Packings> chosen_packings(const BakeOptions& bake, const WriteBakeOptions& options) {
-    if (bake.codec.empty()) return Packings();
-    const auto codec = make_codec(bake.codec);
-    if (!codec) return codec.error();
-    Packings all = codec->basis().packings();
-    if (!options.packings) return all;
-    Packings chosen;
-    std::vector<std::string> names;
-    for (const auto& packing : all) names.push_back(packing->name());
-    for (const auto& name : *options.packings) {
-        const auto found = std::find(names.begin(), names.end(), name);
-        if (found == names.end())
-            return Error{
-                fmt::format("{} has no packing \"{}\"{}", codec->basis().name(), name, nearest_names(name, names))};
-        chosen.push_back(all[static_cast<std::size_t>(found - names.begin())]);
-    }
-    return chosen;
-}
-
-Status add_textures(FilesTogether& files, const Page& page, const Packings& packings, const std::string& origin,
-                    BakedPage& baked) {
-    const std::string stem = fs::path(baked.file).stem().string();
-    for (const auto& packing : packings) {
-        const auto arrays = packing->textures();
-        for (std::size_t i = 0; i < arrays.size(); ++i) {
-            BakedTexture& texture = baked.textures.emplace_back(
-                BakedTexture{packing->name(), fmt::format("{}.{}.{}.ktx2", stem, packing->name(), arrays[i].name),
-                             format_name(arrays[i].format), arrays[i].layers});
-            auto status = files.add(
-                texture.file, [&](StagedFile& file) { return write_page_texture(file, page, *packing, i, origin); });
-            if (!status) return status;
-        }
-    }
-    return Done{};
-}
-
-Status add_pages(FilesTogether& files, const Bake& bake, const Packings& packings, Manifest& manifest) {
+Status add_pages(FilesTogether& files, const Bake& bake, const PageTextures& textures, Manifest& manifest) {
     const std::string origin = fmt::format("{}, {} frame", manifest.options.codec,
                                            k_frame_names[static_cast<std::size_t>(manifest.options.frame)]);
     manifest.pages.clear();
     for (std::size_t i = 0; i < bake.pages.size(); ++i) {
-        BakedPage& baked = manifest.pages.emplace_back(BakedPage{fmt::format("page-{}.exr", i), {}});
+        BakedPage& baked = manifest.pages.emplace_back(BakedPage{fmt::format("page-{}.exr", i), {}, {}});
         auto status = files.add(baked.file, [&](StagedFile& file) {
             return write_page(file, bake.pages[i], bake.layout(), bake.normals[i], {manifest.precision});
         });
-        if (status) status = add_textures(files, bake.pages[i], packings, origin, baked);
+        if (status) status = textures.add(files, bake.pages[i], origin, baked);
         if (!status) return status;
     }
     return Done{};
@@ -106,12 +65,12 @@ Status add_scene(FilesTogether& files, const Scene& scene, Manifest& manifest) {
 
 Status write_bake(const fs::path& folder, const Bake& bake, const WriteBakeOptions& options) {
     assert(bake.pages.size() == bake.normals.size());
-    const auto packings = chosen_packings(bake.manifest.options, options);
-    if (!packings) return packings.error();
+    const auto textures = PageTextures::make(bake.manifest.options.codec, options.storages);
+    if (!textures) return textures.error();
     auto files = FilesTogether::in(folder);
     if (!files) return files.error();
     Manifest manifest = bake.manifest;
-    auto status = add_pages(*files, bake, *packings, manifest);
+    auto status = add_pages(*files, bake, *textures, manifest);
     if (status) status = add_probes(*files, bake, manifest);
     if (status && options.scene != nullptr) status = add_scene(*files, *options.scene, manifest);
     if (status) status = files->add_text(k_manifest_name, to_json_text(manifest));

@@ -18,8 +18,8 @@ struct Bake {
 };
 
 struct WriteBakeOptions {
-    /// Ways to store the coefficients in textures, by name; absent: all that the basis knows (Basis::packings).
-    std::optional<std::vector<std::string>> packings = {};
+    /// Storages of the coefficients in textures, by name; absent: default_storages().
+    std::optional<std::vector<std::string>> storages = {};
     /// What was baked: a glTF copy whose lightmap UVs are those of the pages, and its environment, are written, too.
     const Scene* scene = nullptr;
 };

@@ -25,6 +25,9 @@ class JsonFieldWriter {
     void text(const char* name, const std::optional<std::string>& value) {
         object[name] = value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json();
     }
+    void texts(const char* name, const std::optional<std::vector<std::string>>& value) {
+        object[name] = value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json();
+    }
     void flag(const char* name, const bool& value) { object[name] = value; }
     template <class Enum, std::size_t N>
     void choice(const char* name, const Enum& value, const std::array<const char*, N>& names) {
@@ -57,6 +60,13 @@ class JsonFieldReader {
     template <class Text>
     void text(const char* name, Text& value) {
         if (const auto found = place_.find(name)) value = found->text();
+    }
+    void texts(const char* name, std::optional<std::vector<std::string>>& value) {
+        const auto found = place_.find(name);
+        if (!found) return;
+        constexpr std::size_t k_most_texts = 1024;
+        value.emplace();
+        for (const auto& text : found->list(k_most_texts)) value->push_back(text.text());
     }
     void flag(const char* name, bool& value) {
         if (const auto found = place_.find(name)) value = found->flag();

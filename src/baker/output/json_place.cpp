@@ -98,6 +98,17 @@ Vec3 JsonPlace::vector() const {
     return {entries[0].single(), entries[1].single(), entries[2].single()};
 }
 
+void JsonPlace::expect(const nlohmann::json& expected) const {
+    if (expected.is_object()) {
+        for (const auto& [key, value] : expected.items()) at(key.c_str()).expect(value);
+    } else if (expected.is_array()) {
+        const auto entries = list_of(expected.size());
+        for (std::size_t i = 0; i < entries.size(); ++i) entries[i].expect(expected[i]);
+    } else if (*value_ != expected) {
+        refuse("not " + expected.dump());
+    }
+}
+
 std::size_t JsonPlace::one_of(const std::vector<std::string>& names) const {
     const std::string name = text();
     const auto found = std::find(names.begin(), names.end(), name);

@@ -46,6 +46,8 @@ class JsonPlace {
     [[nodiscard]] double number_in(double least, double most) const;
     [[nodiscard]] float single() const;
     [[nodiscard]] Vec3 vector() const;
+    /// Refuses what is not as `expected`; objects may have members besides.
+    void expect(const nlohmann::json& expected) const;
     /// One of the names, as its index.
     template <std::size_t N>
     [[nodiscard]] std::size_t one_of(const std::array<const char*, N>& names) const {

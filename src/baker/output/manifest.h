@@ -9,6 +9,7 @@
 #include "baker/atlas/atlas.h"
 #include "baker/bake/bake.h"
 #include "io/write_image.h"
+#include "lobelia/pack/texture_layout.h"
 
 namespace lobelia {
 
@@ -18,17 +19,18 @@ struct BakedObject {
     AtlasPlacement placement;
 };
 
-/// A texture array of one page in one packing.
+/// A texture of one page.
 struct BakedTexture {
-    std::string packing;              ///< by its name: Basis::packings
-    std::string file;                 ///< .ktx2, beside the manifest
-    std::string format;               ///< of its texels: half or unorm8
-    std::vector<std::string> layers;  ///< what each holds
+    std::string storage;            ///< by its name: storages()
+    std::string file;               ///< .ktx2, beside the manifest
+    TextureLayout::Texture layout;  ///< what its channels hold
+    float scale = 1;                ///< what was stored is to be multiplied by this first
 };
 
 struct BakedPage {
-    std::string file;  ///< .exr, beside the manifest
-    std::vector<BakedTexture> textures;
+    std::string file;                     ///< .exr, beside the manifest
+    std::vector<BakedTexture> textures;   ///< of one storage after the other
+    std::optional<std::string> validity;  ///< .ktx2, where there are textures
 };
 
 struct Manifest {
@@ -49,7 +51,7 @@ struct Manifest {
     BakeStatistics statistics;
 };
 
-inline constexpr int k_bake_version = 1;
+inline constexpr int k_bake_version = 2;
 inline constexpr const char* k_manifest_name = "bake.json";
 
 /// What is known before the pages are written: all but `scene`, `pages` and `probes`.

@@ -3,48 +3,81 @@
 
 #include <fmt/format.h>
 
-#include <cassert>
-
 #include "io/write_ktx2.h"
+#include "lobelia/codec.h"
+#include "lobelia/pack/layout_text.h"
 
 namespace lobelia {
+namespace {
 
-const char* format_name(TexelFormat format) { return format == TexelFormat::half ? "half" : "unorm8"; }
+using Metadata = std::map<std::string, std::string>;
 
-Status write_page_texture(StagedFile& file, const Page& page, const TexturePacking& packing, std::size_t array,
-                          const std::string& origin) {
-    // Find the array's layers among those of all textures.
-    const auto textures = packing.textures();
-    assert(array < textures.size());
-    std::size_t first = 0, all = 0;
-    for (std::size_t i = 0; i < textures.size(); ++i) {
-        if (i < array) first += textures[i].layers.size();
-        all += textures[i].layers.size();
+Metadata metadata_of(const BakedTexture& texture, const std::string& origin) {
+    std::string channels;
+    for (const StoredChannel& channel : texture.layout.channels)
+        channels += (channels.empty() ? "" : "\n") + channel_text(channel);
+    return {{"lobelia.storage", texture.storage},
+            {"lobelia.format", std::string(info(texture.layout.format).name)},
+            {"lobelia.channels", channels},
+            {"lobelia.scale", fmt::format("{}", texture.scale)},
+            {"lobelia.subsampling", fmt::format("{}", texture.layout.subsampling)},
+            {"lobelia.origin", origin}};
+}
+
+Status write_texture(StagedFile& file, const PackedTexture& packed, Metadata metadata) {
+    return write_ktx2(file, {packed.format, packed.width, packed.height, packed.data, std::move(metadata)});
+}
+
+/// Shares of [0, 1] in 8 bits.
+PackedTexture packed_validity(const Page& page) {
+    PackedTexture packed{"validity", PixelFormat::r8, page.width, page.height, 1, {}};
+    packed.data.resize(byte_size(packed.format, page.width, page.height));
+    const float* channel = page.validity.data();
+    encode_texels(packed.format, page.width, page.height, {&channel, 1}, packed.data);
+    return packed;
+}
+
+}  // namespace
+
+Result<PageTextures> PageTextures::make(const std::string& codec,
+                                        const std::optional<std::vector<std::string>>& storages) {
+    PageTextures textures;
+    if (codec.empty()) {
+        if (storages && !storages->empty())
+            return Error{"storage \"" + storages->front() + "\": irradiance alone has no coefficients to be stored"};
+        return textures;
     }
-    const TextureArray& target = textures[array];
-    const std::size_t layers = target.layers.size();
+    const auto made = make_codec(codec);
+    if (!made) return made.error();
+    textures.traits_ = coefficient_traits(*made->encoder());
+    if (!storages) {
+        textures.storages_ = default_storages(textures.traits_);
+        return textures;
+    }
+    auto found = find_storages(*storages, textures.traits_);
+    if (!found) return Error{codec + ": " + found.error().message};
+    textures.storages_ = std::move(*found);
+    return textures;
+}
 
-    // Pack texel by texel.
-    const Ktx2Texture texture{target.format,
-                              page.width,
-                              page.height,
-                              layers,
-                              {{"lobelia.packing", packing.name()},
-                               {"lobelia.layers", fmt::format("{}", fmt::join(target.layers, "\n"))},
-                               {"lobelia.reading", packing.reading()},
-                               {"lobelia.origin", origin}}};
-    std::vector<Rgb> c(packing.coefficients()), packed(all);
-    return write_ktx2(file, texture, [&](std::size_t y, std::span<Rgba> texels) {
-        for (std::size_t x = 0; x < page.width; ++x) {
-            const std::size_t i = y * page.width + x;
-            for (std::size_t k = 0; k < c.size(); ++k)
-                c[k] = {page.planes[3 * k][i], page.planes[3 * k + 1][i], page.planes[3 * k + 2][i]};
-            packing.pack(c, packed);
-            for (std::size_t layer = 0; layer < layers; ++layer) {
-                const Rgb colour = packed[first + layer];
-                texels[layer * page.width + x] = {colour.r, colour.g, colour.b, page.validity[i]};
-            }
-        }
+Status PageTextures::add(FilesTogether& files, const Page& page, const std::string& origin, BakedPage& baked) const {
+    if (storages_.empty()) return Done{};
+    const std::string stem = std::filesystem::path(baked.file).stem().string();
+    const CoefficientPlanes planes(page.width, page.height, std::span(page.planes), traits_.count);
+    for (const Storage* storage : storages_) {
+        const auto take = [&](const TextureLayout::Texture& layout, const PackedTexture& packed) {
+            const std::string file = fmt::format("{}.{}.{}.ktx2", stem, storage->name, layout.name);
+            const BakedTexture& texture =
+                baked.textures.emplace_back(BakedTexture{std::string(storage->name), file, layout, packed.scale});
+            return files.add(
+                file, [&](StagedFile& staged) { return write_texture(staged, packed, metadata_of(texture, origin)); });
+        };
+        if (Status status = pack_each(storage->layout(traits_), planes, take); !status) return status;
+    }
+    baked.validity = stem + ".validity.ktx2";
+    return files.add(*baked.validity, [&](StagedFile& staged) {
+        return write_texture(staged, packed_validity(page),
+                             {{"lobelia.channels", "validity"}, {"lobelia.origin", origin}});
     });
 }
 

@@ -1,20 +1,32 @@
-// Lightmap pages as textures for GPUs: the coefficients in a packing of their basis, validity in alpha.
+// Lightmap pages as textures for GPUs: the coefficients as storages lay them out, and the validity beside them.
 #pragma once
 
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "baker/bake/pages.h"
-#include "io/staged_file.h"
-#include "lobelia/texture_packing.h"
+#include "baker/output/files_together.h"
+#include "baker/output/manifest.h"
+#include "lobelia/pack.h"
 
 namespace lobelia {
 
-/// Writes array number `array` of the packing's textures as KTX 2.0. `origin` is a text for whoever finds the file
-/// alone: codec and frame.
-[[nodiscard]] Status write_page_texture(StagedFile& file, const Page& page, const TexturePacking& packing,
-                                        std::size_t array, const std::string& origin);
+/// In which textures the pages of a bake are written.
+class PageTextures {
+  public:
+    /// `storages` by name, absent for default_storages(). An error for one that does not suit the codec, or for any
+    /// where there is no codec.
+    [[nodiscard]] static Result<PageTextures> make(const std::string& codec,
+                                                   const std::optional<std::vector<std::string>>& storages);
 
-/// In file names and manifests: half or unorm8.
-[[nodiscard]] const char* format_name(TexelFormat format);
+    /// Writes page-N.STORAGE.TEXTURE.ktx2 and page-N.validity.ktx2, packed one at a time, and enters them in `baked`,
+    /// whose own file has a name already. `origin` is a text for whoever finds a file alone: codec and frame.
+    [[nodiscard]] Status add(FilesTogether& files, const Page& page, const std::string& origin, BakedPage& baked) const;
+
+  private:
+    std::vector<const Storage*> storages_;
+    CoefficientTraits traits_;
+};
 
 }  // namespace lobelia

@@ -2,17 +2,20 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <map>
 #include <set>
 
 #include "baker/output/bake_fields.h"
 #include "baker/output/manifest.h"
 #include "baker/output/page_files.h"
 #include "io/read_file.h"
+#include "lobelia/pack.h"
+#include "lobelia/pack/layout_text.h"
 
 namespace lobelia {
 namespace {
 
-constexpr std::uint64_t k_most_side = 65536, k_most_pages = 4096, k_most_objects = 1u << 24, k_most_layers = 2048,
+constexpr std::uint64_t k_most_side = 65536, k_most_pages = 4096, k_most_objects = 1u << 24, k_most_textures = 65536,
                         k_most_warnings = 4096;
 
 void read_scene(const JsonPlace& scene, Manifest& m) {
@@ -47,10 +50,54 @@ void read_codec(const JsonPlace& codec, Manifest& m) {
         codec.at("frame").refuse(name->basis + " is a basis of the hemisphere, which stands in the tangent frame");
 }
 
-BakedTexture read_texture(const JsonPlace& place) {
-    BakedTexture texture{place.at("packing").text(), place.at("file").file_name(), place.at("format").text(), {}};
-    for (const auto& layer : place.at("layers").list(k_most_layers)) texture.layers.push_back(layer.text());
-    return texture;
+/// The textures that storages make of the codec's coefficients, by storage and name.
+class KnownTextures {
+  public:
+    explicit KnownTextures(const Manifest& m) {
+        if (m.options.codec.empty()) return;
+        // Good by now.
+        const auto name = parse_codec_name(m.options.codec);
+        traits_ = coefficient_traits(*make_basis(name->basis).value());
+    }
+    [[nodiscard]] const TextureLayout::Texture& at(const JsonPlace& place) {
+        const JsonPlace storage_place = place.at("storage"), name_place = place.at("name");
+        if (!traits_) place.refuse("there is no codec, so there can be no textures");
+        const auto& textures = of_storage(storage_place);
+        const auto found = textures.find(name_place.text());
+        if (found == textures.end()) name_place.refuse("no texture of the storage " + storage_place.text());
+        return found->second;
+    }
+
+  private:
+    using Textures = std::map<std::string, TextureLayout::Texture>;
+    const Textures& of_storage(const JsonPlace& place) {
+        const auto known = textures_.find(place.text());
+        if (known != textures_.end()) return known->second;
+        const auto storage = find_storages(std::array{place.text()}, *traits_);
+        if (!storage) place.refuse(storage.error().message);
+        Textures& textures = textures_[place.text()];
+        for (auto& texture : storage->front()->layout(*traits_).textures) textures.emplace(texture.name, texture);
+        return textures;
+    }
+
+    std::optional<CoefficientTraits> traits_;
+    std::map<std::string, Textures> textures_;
+};
+
+BakedTexture read_texture(const JsonPlace& place, KnownTextures& known) {
+    // What the channels hold follows from the storage. Should that change one day, old files must not be misread.
+    const TextureLayout::Texture& layout = known.at(place);
+    place.expect(nlohmann::json::parse(texture_json(layout)));
+    const auto scale = static_cast<float>(place.at("scale").number_in(0x1p-149, 0x1p127));
+    return {place.at("storage").text(), place.at("file").file_name(), layout, scale};
+}
+
+BakedPage read_page_entry(const JsonPlace& place, KnownTextures& known) {
+    BakedPage page{place.at("file").file_name(), {}, {}};
+    for (const auto& texture : place.at("textures").list(k_most_textures))
+        page.textures.push_back(read_texture(texture, known));
+    if (const auto validity = place.find("validity")) page.validity = validity->file_name();
+    return page;
 }
 
 void read_layout(const JsonPlace& layout, Manifest& m) {
@@ -63,11 +110,8 @@ void read_layout(const JsonPlace& layout, Manifest& m) {
     const auto channels = layout.at("channels").list_of(names.size());
     for (std::size_t i = 0; i < names.size(); ++i)
         if (channels[i].text() != names[i]) channels[i].refuse(fmt::format("not \"{}\"", names[i]));
-    for (const auto& page : layout.at("pages").list(k_most_pages)) {
-        BakedPage& baked = m.pages.emplace_back(BakedPage{page.at("file").file_name(), {}});
-        for (const auto& texture : page.at("textures").list(k_most_layers))
-            baked.textures.push_back(read_texture(texture));
-    }
+    KnownTextures known(m);
+    for (const auto& page : layout.at("pages").list(k_most_pages)) m.pages.push_back(read_page_entry(page, known));
     if (m.pages.empty()) layout.at("pages").refuse("no pages");
 }
 
@@ -101,6 +145,7 @@ void refuse_repeated_files(const JsonPlace& top, const Manifest& m) {
     for (const auto& page : m.pages) {
         add(page.file);
         for (const auto& texture : page.textures) add(texture.file);
+        if (page.validity) add(*page.validity);
     }
     if (m.scene) add(*m.scene);
     if (m.environment) add(*m.environment);

@@ -4,6 +4,7 @@
 #include "baker/output/bake_fields.h"
 #include "baker/output/manifest.h"
 #include "baker/output/page_files.h"
+#include "lobelia/pack/layout_text.h"
 #include "scene/scene_hash.h"
 
 namespace lobelia {
@@ -15,14 +16,16 @@ constexpr const char* k_version = LOBELIA_VERSION;
 
 ordered_json or_null(const std::optional<std::string>& text) { return text ? ordered_json(*text) : ordered_json(); }
 
+ordered_json to_json(const BakedTexture& texture) {
+    ordered_json json = {{"storage", texture.storage}, {"file", texture.file}, {"scale", shortest(texture.scale)}};
+    json.update(ordered_json::parse(texture_json(texture.layout)));
+    return json;
+}
+
 ordered_json to_json(const BakedPage& page) {
     ordered_json textures = ordered_json::array();
-    for (const auto& texture : page.textures)
-        textures.push_back({{"packing", texture.packing},
-                            {"file", texture.file},
-                            {"format", texture.format},
-                            {"layers", texture.layers}});
-    return {{"file", page.file}, {"textures", std::move(textures)}};
+    for (const auto& texture : page.textures) textures.push_back(to_json(texture));
+    return {{"file", page.file}, {"textures", std::move(textures)}, {"validity", or_null(page.validity)}};
 }
 
 /// In double precision, page uv = uv_scale * uv + uv_offset gives back the placement exactly.

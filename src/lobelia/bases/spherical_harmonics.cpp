@@ -6,56 +6,6 @@ namespace {
 
 constexpr std::size_t k_highest_degree = 8;
 
-/// Degree 1 by mean and direction, as lightmaps have it: with L0 = c_0 Y_0, the mean radiance, and
-/// L1 = (sqrt(3) / 3) (c_3, c_1, c_2) / c_0, whose length is 1 at most where no light is negative,
-///
-///   E(n) / pi = 2 L0 (1/2 + dot(L1, n)).
-///
-/// From A_0 = pi, A_1 = 2 pi / 3: E / pi = c_0 Y_0 + (2/3) sqrt(3 / 4pi) (c_3 x + c_1 y + c_2 z), and the second factor
-/// over 2 Y_0 is sqrt(3) / 3. The bound: c_0 = Y_0 times the integral of L, and |(c_3, c_1, c_2)| is at most
-/// sqrt(3) Y_0 times it. Textures hold L1 / 2 + 1/2.
-class RelativeLinearBand final : public TexturePacking {
-  public:
-    [[nodiscard]] std::string name() const override { return "l1-over-l0"; }
-    [[nodiscard]] std::size_t coefficients() const override { return 4; }
-    [[nodiscard]] std::string reading() const override {
-        return "with L1 = 2 * (x, y, z) - 1 in each colour channel: E(n) / pi = 2 * L0 * (0.5 + dot(L1, n))";
-    }
-    [[nodiscard]] std::vector<TextureArray> textures() const override {
-        return {{"l0", TexelFormat::half, {"L0 = c0 / sqrt(4 pi)"}},
-                {"l1",
-                 TexelFormat::unorm8,
-                 {"x = 0.5 + sqrt(3) / 6 * c3 / c0", "y = 0.5 + sqrt(3) / 6 * c1 / c0",
-                  "z = 0.5 + sqrt(3) / 6 * c2 / c0"}}};
-    }
-    void pack(std::span<const Rgb> c, std::span<Rgb> layers) const override {
-        for (float Rgb::*channel : {&Rgb::r, &Rgb::g, &Rgb::b}) {
-            // Noise may leave what no light has: negative means, or directions longer than 1.
-            const float c0 = c[0].*channel;
-            const Vec3 linear{c[3].*channel, c[1].*channel, c[2].*channel};
-            const float longest = std::max(length(linear) * k_ratio, c0);
-            const Vec3 l1 = c0 > 0 ? linear * (k_ratio / longest) : Vec3{};
-            layers[0].*channel = std::max(c0, 0.0f) * k_y0;
-            layers[1].*channel = 0.5f + 0.5f * l1.x;
-            layers[2].*channel = 0.5f + 0.5f * l1.y;
-            layers[3].*channel = 0.5f + 0.5f * l1.z;
-        }
-    }
-    void unpack(std::span<const Rgb> layers, std::span<Rgb> c) const override {
-        for (float Rgb::*channel : {&Rgb::r, &Rgb::g, &Rgb::b}) {
-            const float c0 = layers[0].*channel / k_y0;
-            c[0].*channel = c0;
-            c[3].*channel = (2 * layers[1].*channel - 1) * c0 / k_ratio;
-            c[1].*channel = (2 * layers[2].*channel - 1) * c0 / k_ratio;
-            c[2].*channel = (2 * layers[3].*channel - 1) * c0 / k_ratio;
-        }
-    }
-
-  private:
-    static constexpr float k_y0 = 0.28209479f;     ///< sqrt(1 / 4pi)
-    static constexpr float k_ratio = 0.57735027f;  ///< sqrt(3) / 3
-};
-
 }  // namespace
 
 Result<std::shared_ptr<const Basis>> SphericalHarmonics::from_name(std::string_view name) {
@@ -97,12 +47,6 @@ std::vector<float> SphericalHarmonics::lead_bounds() const {
     for (std::size_t l = 0; l <= harmonics_.degree(); ++l)
         bounds.insert(bounds.end(), 2 * l + 1, std::sqrt(static_cast<float>(2 * l + 1)));
     return bounds;
-}
-
-std::vector<std::shared_ptr<const TexturePacking>> SphericalHarmonics::packings() const {
-    std::vector<std::shared_ptr<const TexturePacking>> all = Basis::packings();
-    if (harmonics_.degree() == 1) all.push_back(std::make_shared<RelativeLinearBand>());
-    return all;
 }
 
 Basis::Rotated SphericalHarmonics::rotated(const Rotation& r, std::span<const Rgb> c) const {

@@ -37,8 +37,6 @@ class SphericalHarmonics final : public LinearBasis {
     [[nodiscard]] std::shared_ptr<const SpecularEvaluator> specular(std::string_view name) const override {
         return sh_specular(name, harmonics_.degree());
     }
-    /// Degree 1 also as l1-over-l0: the mean radiance as halves, and the linear band relative to it in 8 bits.
-    [[nodiscard]] std::vector<std::shared_ptr<const TexturePacking>> packings() const override;
     [[nodiscard]] Rotated rotated(const Rotation& r, std::span<const Rgb> c) const override;
     [[nodiscard]] std::optional<std::size_t> harmonics_degree() const override { return harmonics_.degree(); }
     /// sqrt(2l + 1): by the addition theorem no Y_lm exceeds sqrt((2l + 1) / 4 pi), which Y_l0 reaches, and

@@ -31,20 +31,24 @@ std::string_view component_name(Component component) {
     return names[static_cast<std::size_t>(component)];
 }
 
+std::string texture_json(const TextureLayout::Texture& texture) {
+    const FormatInfo& format = info(texture.format);
+    std::string text = "{\"name\": " + quoted(texture.name) + ", \"format\": " + quoted(format.name) +
+                       ", \"vk_format\": " + std::to_string(format.vk_format) +
+                       ", \"subsampling\": " + std::to_string(texture.subsampling) + ", \"channels\": [";
+    std::string_view separator;
+    for (const StoredChannel& channel : texture.channels) {
+        (text += separator) += channel_json(channel);
+        separator = ", ";
+    }
+    return text + "]}";
+}
+
 std::string layout_json(const TextureLayout& layout) {
     std::string text = "{\"coefficients\": " + std::to_string(layout.coefficients) + ", \"textures\": [";
     std::string_view separator;
     for (const TextureLayout::Texture& texture : layout.textures) {
-        const FormatInfo& format = info(texture.format);
-        ((text += separator) += "{\"name\": ") += quoted(texture.name);
-        text += ", \"format\": " + quoted(format.name) + ", \"vk_format\": " + std::to_string(format.vk_format) +
-                ", \"subsampling\": " + std::to_string(texture.subsampling) + ", \"channels\": [";
-        std::string_view comma;
-        for (const StoredChannel& channel : texture.channels) {
-            (text += comma) += channel_json(channel);
-            comma = ", ";
-        }
-        text += "]}";
+        (text += separator) += texture_json(texture);
         separator = ", ";
     }
     return text + "]}";

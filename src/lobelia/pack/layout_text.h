@@ -10,6 +10,9 @@ namespace lobelia {
 /// "b", "luma", "chroma_orange" or "chroma_green", `form` is "value" or "ratio".
 [[nodiscard]] std::string layout_json(const TextureLayout& layout);
 
+/// One of the "textures".
+[[nodiscard]] std::string texture_json(const TextureLayout::Texture& texture);
+
 /// What a channel holds, such as "c1.r" or "0.5 + 0.288675 c1.r / c0.r".
 [[nodiscard]] std::string channel_text(const StoredChannel& channel);
 

@@ -1,4 +1,5 @@
 // THE list of storages, and what follows from a storage's data.
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -159,6 +160,18 @@ constexpr std::array k_storages = {
             ratios_of_8_bits<PixelFormat::bc6h_unsigned>},
 };
 
+/// Why not, and what would do.
+Error unsuitable(const Storage& storage, const CoefficientTraits& traits) {
+    constexpr std::array<std::string_view, 4> wants = {"any", "coefficients that are never negative",
+                                                       "coefficients that are colours",
+                                                       "coefficients that the first of them bounds"};
+    std::string suitable;
+    for (const Storage& other : k_storages)
+        if (suits(other, traits)) suitable += (suitable.empty() ? "" : ", ") + std::string(other.name);
+    return Error{"storage \"" + std::string(storage.name) + "\" wants " +
+                 std::string(wants[static_cast<std::size_t>(storage.suits)]) + "; what suits here: " + suitable};
+}
+
 /// Largest magnitude of a texel's three channels of a coefficient.
 float largest_channel(const CoefficientPlanes& c, std::size_t coefficient, std::size_t texel) {
     float largest = 0;
@@ -208,9 +221,14 @@ double bound_at(const ErrorBound& bound, const CoefficientTraits& traits, const 
 
 std::span<const Storage> storages() { return k_storages; }
 
+CoefficientTraits coefficient_traits(const Basis& basis) {
+    return {basis.size(), true, basis.has_colours(), basis.lead_bounds()};
+}
+
 CoefficientTraits coefficient_traits(const Encoder& encoder) {
-    const Basis& basis = encoder.basis();
-    return {basis.size(), encoder.is_non_negative(), basis.has_colours(), basis.lead_bounds()};
+    CoefficientTraits traits = coefficient_traits(encoder.basis());
+    traits.non_negative = encoder.is_non_negative();
+    return traits;
 }
 
 bool suits(const Storage& storage, const CoefficientTraits& traits) {
@@ -234,6 +252,24 @@ Result<const Storage*> find_storage(std::string_view name) {
         known.emplace_back(storage.name);
     }
     return Error{"unknown storage \"" + std::string(name) + "\"" + nearest_names(name, known)};
+}
+
+Result<std::vector<const Storage*>> find_storages(std::span<const std::string> names, const CoefficientTraits& traits) {
+    std::vector<const Storage*> found;
+    for (const std::string& name : names) {
+        const auto storage = find_storage(name);
+        if (!storage) return storage.error();
+        if (!suits(**storage, traits)) return unsuitable(**storage, traits);
+        if (std::find(found.begin(), found.end(), *storage) == found.end()) found.push_back(*storage);
+    }
+    return found;
+}
+
+std::vector<const Storage*> default_storages(const CoefficientTraits& traits) {
+    std::vector<const Storage*> chosen;
+    for (const std::string_view name : {"float16", "ratio8"})
+        if (const Storage* storage = find_storage(name).value(); suits(*storage, traits)) chosen.push_back(storage);
+    return chosen;
 }
 
 void allowed_error(const Storage& storage, const CoefficientTraits& traits, const CoefficientPlanes& coefficients,

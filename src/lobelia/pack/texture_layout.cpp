@@ -2,9 +2,9 @@
 #include "lobelia/pack/texture_layout.h"
 
 #include <algorithm>
-
 #include <array>
 #include <cmath>
+#include <deque>
 
 namespace lobelia {
 namespace {
@@ -40,15 +40,20 @@ bool is_plane(const StoredChannel& channel, const Texture& texture, float scale)
            texture.subsampling == 1 && scale == 1;
 }
 
-/// The leading coefficient as it will be read back.
-using Lead = std::array<std::vector<float>, 3>;
+/// Rows of the leading coefficient as they will be read back, its three channels.
+using LeadRows = std::array<std::vector<float>, 3>;
 
 /// Fills rows of a texture with what a channel stores.
 class ChannelSource {
   public:
-    ChannelSource(const CoefficientPlanes& planes, const Texture& texture, const Lead& lead, float scale)
-        : planes_(planes), texture_(texture), lead_(lead), inverse_scale_(1 / scale) {}
+    ChannelSource(const CoefficientPlanes& planes, const Texture& texture, float scale)
+        : planes_(planes), texture_(texture), inverse_scale_(1 / scale) {}
 
+    /// Ratios are to `lead`, which begins with the planes' row that row y is made of.
+    void set_lead(LeadRows lead, std::size_t y) {
+        lead_ = std::move(lead);
+        lead_begin_ = y * texture_.subsampling * planes_.width;
+    }
     void fill(const StoredChannel& channel, std::size_t y, std::size_t rows, float* out) const {
         const std::size_t width = divided(planes_.width, texture_.subsampling);
         for (std::size_t row = 0; row < rows; ++row) {
@@ -76,7 +81,7 @@ class ChannelSource {
             for (std::size_t i = 0; i < count; ++i) out[i] = value[i] * inverse_scale_;
             return;
         }
-        const float* lead = lead_[rgb_index(channel.component)].data() + begin;
+        const float* lead = lead_[rgb_index(channel.component)].data() + (begin - lead_begin_);
         for (std::size_t i = 0; i < count; ++i) {
             const float divisor = lead[i] != 0 ? lead[i] : HUGE_VALF;
             out[i] = value[i] / divisor;
@@ -99,7 +104,8 @@ class ChannelSource {
 
     const CoefficientPlanes& planes_;
     const Texture& texture_;
-    const Lead& lead_;
+    LeadRows lead_;
+    std::size_t lead_begin_ = 0;
     float inverse_scale_;
 };
 
@@ -114,42 +120,6 @@ float largest_of(const Texture& texture, const CoefficientPlanes& planes) {
                     std::max(largest, largest_magnitude(planes.planes[3 * channel.coefficient + k], planes.size()));
     }
     return largest;
-}
-
-PackedTexture pack_texture(const Texture& texture, const CoefficientPlanes& planes, const Lead& lead) {
-    const FormatInfo& format = info(texture.format);
-    PackedTexture packed{texture.name,
-                         texture.format,
-                         divided(planes.width, texture.subsampling),
-                         divided(planes.height, texture.subsampling),
-                         storing_scale(texture.format, largest_of(texture, planes)),
-                         {}};
-    packed.data.resize(byte_size(texture.format, packed.width, packed.height));
-    const ChannelSource source(planes, texture, lead, packed.scale);
-
-    // Prepare a strip of rows, whole blocks of them, and encode it.
-    const std::size_t strip = std::max<std::size_t>(1, k_strip / packed.width / format.block) * format.block;
-    std::vector<std::vector<float>> prepared(format.channels);
-    std::vector<const float*> channels(format.channels);
-    for (std::size_t y = 0; y < packed.height; y += strip) {
-        const std::size_t rows = std::min(strip, packed.height - y);
-        for (std::size_t k = 0; k < format.channels; ++k) {
-            const bool used = k < texture.channels.size();
-            if (used && is_plane(texture.channels[k], texture, packed.scale)) {
-                const StoredChannel& channel = texture.channels[k];
-                channels[k] = planes.planes[3 * channel.coefficient + rgb_index(channel.component)] + y * packed.width;
-                continue;
-            }
-            prepared[k].resize(rows * packed.width);
-            if (used) source.fill(texture.channels[k], y, rows, prepared[k].data());
-            channels[k] = prepared[k].data();
-        }
-        encode_texels(
-            texture.format, packed.width, rows, channels,
-            std::span(packed.data)
-                .subspan(byte_size(texture.format, packed.width, y), byte_size(texture.format, packed.width, rows)));
-    }
-    return packed;
 }
 
 /// Writes each of the first `count` entries twice, from the end.
@@ -207,19 +177,88 @@ void unpack_texture(const Texture& texture, const PackedTexture& packed, const M
 }
 
 bool has_ratios(const Texture& texture) {
-    return !texture.channels.empty() && texture.channels.front().form == Form::ratio;
+    return std::any_of(texture.channels.begin(), texture.channels.end(),
+                       [](const StoredChannel& channel) { return channel.form == Form::ratio; });
 }
 
-/// The leading coefficient as the textures packed so far give it back; their other coefficients are of no interest.
-Lead read_lead(const TextureLayout& layout, std::span<const PackedTexture> packed, const CoefficientPlanes& planes) {
-    Lead lead;
-    for (auto& channel : lead) channel.resize(planes.size());
-    std::vector<float> rest(planes.size());
-    MutableCoefficientPlanes out(planes.width, planes.height,
-                                 std::vector<float*>(3 * layout.coefficients, rest.data()));
-    for (std::size_t k = 0; k < 3; ++k) out.planes[k] = lead[k].data();
-    for (std::size_t i = 0; i < packed.size(); ++i) unpack_texture(layout.textures[i], packed[i], out);
-    return lead;
+bool holds_lead(const Texture& texture) {
+    return std::any_of(texture.channels.begin(), texture.channels.end(),
+                       [](const StoredChannel& channel) { return channel.coefficient == 0; });
+}
+
+/// Rows [y, y + rows) of a page, of a texture of it; y is a multiple of k_row_step.
+constexpr std::size_t k_row_step = 8;  ///< a block of 4 rows, sub-sampled by 2
+PackedTexture rows_of(const Texture& texture, const PackedTexture& packed, std::size_t y, std::size_t rows) {
+    const std::size_t begin = y / texture.subsampling, count = divided(rows, texture.subsampling);
+    const auto bytes =
+        std::span(packed.data)
+            .subspan(byte_size(texture.format, packed.width, begin), byte_size(texture.format, packed.width, count));
+    return {packed.name, packed.format, packed.width, count, packed.scale, std::vector(bytes.begin(), bytes.end())};
+}
+
+/// The textures that hold the leading coefficient, once they are packed.
+class PackedLead {
+  public:
+    void add(const Texture& texture, const PackedTexture& packed) {
+        textures_.push_back(&texture);
+        packed_.push_back(&packed);
+    }
+    /// Rows of it as they are read back; other coefficients in the same textures are of no interest.
+    [[nodiscard]] LeadRows read(const CoefficientPlanes& planes, std::size_t y, std::size_t rows) const {
+        LeadRows lead;
+        for (auto& channel : lead) channel.resize(rows * planes.width);
+        std::vector<float> rest(rows * planes.width);
+        MutableCoefficientPlanes out(planes.width, rows, std::vector<float*>(planes.planes.size(), rest.data()));
+        for (std::size_t k = 0; k < 3; ++k) out.planes[k] = lead[k].data();
+        for (std::size_t i = 0; i < packed_.size(); ++i)
+            unpack_texture(*textures_[i], rows_of(*textures_[i], *packed_[i], y, rows), out);
+        return lead;
+    }
+
+  private:
+    std::vector<const Texture*> textures_;
+    std::vector<const PackedTexture*> packed_;
+};
+
+PackedTexture pack_texture(const Texture& texture, const CoefficientPlanes& planes, const PackedLead& lead) {
+    const FormatInfo& format = info(texture.format);
+    PackedTexture packed{texture.name,
+                         texture.format,
+                         divided(planes.width, texture.subsampling),
+                         divided(planes.height, texture.subsampling),
+                         storing_scale(texture.format, largest_of(texture, planes)),
+                         {}};
+    packed.data.resize(byte_size(texture.format, packed.width, packed.height));
+    ChannelSource source(planes, texture, packed.scale);
+
+    // Prepare a strip of rows, whole blocks of them, and encode it.
+    const std::size_t step = has_ratios(texture) ? k_row_step : format.block;
+    const std::size_t strip = std::max<std::size_t>(1, k_strip / packed.width / step) * step;
+    std::vector<std::vector<float>> prepared(format.channels);
+    std::vector<const float*> channels(format.channels);
+    for (std::size_t y = 0; y < packed.height; y += strip) {
+        const std::size_t rows = std::min(strip, packed.height - y);
+        if (has_ratios(texture)) {
+            const std::size_t top = y * texture.subsampling;
+            source.set_lead(lead.read(planes, top, std::min(rows * texture.subsampling, planes.height - top)), y);
+        }
+        for (std::size_t k = 0; k < format.channels; ++k) {
+            const bool used = k < texture.channels.size();
+            if (used && is_plane(texture.channels[k], texture, packed.scale)) {
+                const StoredChannel& channel = texture.channels[k];
+                channels[k] = planes.planes[3 * channel.coefficient + rgb_index(channel.component)] + y * packed.width;
+                continue;
+            }
+            prepared[k].resize(rows * packed.width);
+            if (used) source.fill(texture.channels[k], y, rows, prepared[k].data());
+            channels[k] = prepared[k].data();
+        }
+        encode_texels(
+            texture.format, packed.width, rows, channels,
+            std::span(packed.data)
+                .subspan(byte_size(texture.format, packed.width, y), byte_size(texture.format, packed.width, rows)));
+    }
+    return packed;
 }
 
 }  // namespace
@@ -243,12 +282,26 @@ double bytes_per_texel(const TextureLayout& layout) {
 std::vector<PackedTexture> pack(const TextureLayout& layout, const CoefficientPlanes& coefficients) {
     assert(coefficients.planes.size() == 3 * layout.coefficients && coefficients.size() > 0);
     std::vector<PackedTexture> packed;
-    Lead lead;
+    packed.reserve(layout.textures.size());
+    PackedLead lead;
     for (const Texture& texture : layout.textures) {
-        if (has_ratios(texture) && lead[0].empty()) lead = read_lead(layout, packed, coefficients);
         packed.push_back(pack_texture(texture, coefficients, lead));
+        if (holds_lead(texture)) lead.add(texture, packed.back());
     }
     return packed;
+}
+
+Status pack_each(const TextureLayout& layout, const CoefficientPlanes& coefficients, const TakeTexture& take) {
+    assert(coefficients.planes.size() == 3 * layout.coefficients && coefficients.size() > 0);
+    const bool keeps_lead = std::any_of(layout.textures.begin(), layout.textures.end(), has_ratios);
+    std::deque<PackedTexture> kept;
+    PackedLead lead;
+    for (const Texture& texture : layout.textures) {
+        PackedTexture packed = pack_texture(texture, coefficients, lead);
+        if (Status status = take(texture, packed); !status) return status;
+        if (keeps_lead && holds_lead(texture)) lead.add(texture, kept.emplace_back(std::move(packed)));
+    }
+    return Done{};
 }
 
 void unpack(const TextureLayout& layout, std::span<const PackedTexture> textures, const MutableCoefficientPlanes& out) {

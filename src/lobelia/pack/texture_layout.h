@@ -1,12 +1,14 @@
 // Which coefficient is in which channel of which texture: data that packing, unpacking, shaders and files all read.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <string>
 #include <type_traits>
 #include <vector>
 
 #include "lobelia/pack/pixel_format.h"
+#include "lobelia/result.h"
 
 namespace lobelia {
 
@@ -79,6 +81,12 @@ struct PackedTexture {
 
 /// Packs coefficients by a layout, one texture for each of its textures; at least one texel.
 [[nodiscard]] std::vector<PackedTexture> pack(const TextureLayout& layout, const CoefficientPlanes& coefficients);
+
+/// The same, one texture after the other, for large pages: only the one that is handed over is in memory, and the
+/// leading coefficient's where ratios to it follow. It ends with the first error that `take` returns.
+using TakeTexture = std::function<Status(const TextureLayout::Texture& texture, const PackedTexture& packed)>;
+[[nodiscard]] Status pack_each(const TextureLayout& layout, const CoefficientPlanes& coefficients,
+                               const TakeTexture& take);
 
 /// The inverse, for textures of this layout; sub-sampled ones are read as the nearest texel.
 void unpack(const TextureLayout& layout, std::span<const PackedTexture> textures, const MutableCoefficientPlanes& out);
