@@ -234,8 +234,7 @@ class Progressive final : public SequentialEncoder {
 
 class MatrixGain final : public SequentialEncoder {
   public:
-    explicit MatrixGain(std::shared_ptr<const LinearBasis> basis_of)
-        : SequentialEncoder(basis_of, Sign::any) {
+    explicit MatrixGain(std::shared_ptr<const LinearBasis> basis_of) : SequentialEncoder(basis_of, Sign::any) {
         const auto n = static_cast<Eigen::Index>(basis().size());
         const Matrix gram = basis().gram();
         Eigen::MatrixXd mean = Eigen::Map<const Eigen::MatrixXd>(gram.data(), n, n) / solid_angle(basis().domain());
