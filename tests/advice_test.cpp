@@ -92,6 +92,8 @@ TEST(Advice, ScriptsGetAllOfIt) {
     EXPECT_EQ(j["recommended"]["codec"], "c/e/r");
     EXPECT_EQ(j["budget"], 20);
     EXPECT_EQ(j["need"], "irradiance");
+    // By the words of the option.
+    EXPECT_EQ(to_json(*advise(k_four, {.need = Need::specular}))["need"], "specular");
     EXPECT_NE(j["reason"].get<std::string>().find("the smallest within 5 %"), std::string::npos);
     EXPECT_EQ(to_study(*advice, "x").tables.at(0).rows.size(), 4u);
 }

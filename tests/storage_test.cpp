@@ -302,6 +302,17 @@ TEST(Storages, WhatSuitsFollowsFromTheTraits) {
     EXPECT_FALSE(names({3, true, true, {}}).contains("ratio8"));
 }
 
+TEST(Storages, OnlyColoursHaveChroma) {
+    for (const auto& name : basis_names()) {
+        SCOPED_TRACE(name);
+        const auto basis = make_basis(name).value();
+        const auto meanings = basis->meanings();
+        const bool has_shapes = std::find(meanings.begin(), meanings.end(), Meaning::shape) != meanings.end();
+        const auto encoder = make_encoder(encoder_names(*basis).front(), basis).value();
+        EXPECT_EQ(suits(*find_storage("ycocg").value(), coefficient_traits(*encoder)), !has_shapes);
+    }
+}
+
 TEST(Storages, LayoutsAsText) {
     const TextureLayout layout = find_storage("ratio8").value()->layout({2, false, true, {1, 2}});
     EXPECT_EQ(
@@ -340,7 +351,8 @@ TEST(Storages, OnesThatDoNotSuitAreErrorsThatSayWhatDoes) {
 }
 
 TEST(LeadBounds, HoldForAnyLightThatIsNotNegative) {
-    // Coefficients of single lights from all sides: the extreme points of all lights, to which the bounds are linear.
+    // Coefficients of single lights from all sides, the extreme points of all lights, and of pairs of them, since not
+    // all coefficients are linear.
     for (const auto& name : basis_names()) {
         const auto basis = make_basis(name).value();
         const auto bounds = basis->lead_bounds();
@@ -352,8 +364,10 @@ TEST(LeadBounds, HoldForAnyLightThatIsNotNegative) {
         std::vector<float> largest(bounds.size());
         const Directions directions = test::random_directions(basis->domain(), 400, 9);
         for (std::size_t i = 0; i < directions.size(); ++i) {
-            Samples light(1);
+            Samples light(2);
             light.set(0, {direction_at(directions, i), {1, 1, 1}, 1});
+            const auto other = static_cast<float>(i % 4) / 3;
+            light.set(1, {direction_at(directions, (7 * i + 1) % directions.size()), {other, other, other}, 1});
             Accumulator accumulator(encoder);
             accumulator.add(light);
             const auto c = accumulator.solve();

@@ -38,10 +38,7 @@ std::vector<const Storage*> all_storages() {
 /// Those whose error depends on nothing but a texel's own coefficients.
 std::vector<const Storage*> storages_of_single_texels() {
     std::vector<const Storage*> single = all_storages();
-    std::erase_if(single, [](const Storage* storage) {
-        const CoefficientTraits any{1, true, true, {1}};
-        return shares_texels(storage->layout(any));
-    });
+    std::erase_if(single, [](const Storage* storage) { return shares_texels(*storage); });
     return single;
 }
 

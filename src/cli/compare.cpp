@@ -90,6 +90,20 @@ Result<std::vector<const Storage*>> chosen_storages(const CompareArguments& opti
     return chosen;
 }
 
+/// A storage that was named must suit one of the codecs at least.
+Status check_used(const std::vector<std::string>& named, const Comparison& comparison) {
+    for (const auto& name : named) {
+        const bool is_used = std::any_of(comparison.methods.begin(), comparison.methods.end(), [&](const Method& m) {
+            return std::any_of(m.storage.begin(), m.storage.end(),
+                               [&](const StorageErrors& s) { return s.storage == name; });
+        });
+        if (name != "all" && !is_used)
+            return Error{"--storage " + name +
+                         ": it suits none of these codecs; lobelia list --storages CODEC prints those that do"};
+    }
+    return Done{};
+}
+
 Result<Comparison> run(const CompareArguments& options, const Image& environment) {
     ComparisonOptions comparison = comparison_options(options.sampling);
     comparison.pictures = !options.json_only;
@@ -102,7 +116,10 @@ Result<Comparison> run(const CompareArguments& options, const Image& environment
     auto storages = chosen_storages(options);
     if (!storages) return storages.error();
     comparison.storages = *std::move(storages);
-    return compare(environment, *codecs, comparison, progress_bar());
+    auto result = compare(environment, *codecs, comparison, progress_bar());
+    if (!result) return result;
+    if (auto status = check_used(options.storages, *result); !status) return status.error();
+    return result;
 }
 
 void print_summary(const Comparison& comparison) {
@@ -130,6 +147,29 @@ void print_summary(const Comparison& comparison) {
     if (ranked.size() > most) fmt::print("... and {} more, in the report\n", ranked.size() - most);
 }
 
+/// Of what was stored, the least error of irradiance for so many bytes; the report has all, that of single texels in
+/// blocks too, which tells nothing of pages.
+void print_stored(const Comparison& comparison) {
+    std::vector<std::pair<const Method*, const StorageErrors*>> ranked;
+    for (const Method& method : comparison.methods)
+        for (const StorageErrors& stored : method.storage)
+            if (!shares_texels(**find_storage(stored.storage))) ranked.emplace_back(&method, &stored);
+    if (ranked.empty()) return;
+    std::stable_sort(ranked.begin(), ranked.end(), [](const auto& a, const auto& b) {
+        return std::pair(a.second->bytes, a.second->irradiance_over_pi_rms) <
+               std::pair(b.second->bytes, b.second->irradiance_over_pi_rms);
+    });
+    fmt::print("\n{:<42} {:>6} {:>12} {:>12} {:>12}\n", "stored: the least E/pi rms for the bytes", "bytes", "L rms",
+               "E/pi rms", "storage");
+    double least = std::numeric_limits<double>::infinity();
+    for (const auto& [method, stored] : ranked) {
+        if (!(stored->irradiance_over_pi_rms < least)) continue;
+        least = stored->irradiance_over_pi_rms;
+        fmt::print("{:<42} {:>6.4g} {:>12.6g} {:>12.6g} {:>12}\n", method->name.str(), stored->bytes,
+                   stored->radiance_rms, stored->irradiance_over_pi_rms, stored->storage);
+    }
+}
+
 Status compare_verb(const CompareArguments& options) {
     // Names first, then files: what is cheap to refuse is refused first.
     if (options.recipe.empty())
@@ -149,6 +189,7 @@ Status compare_verb(const CompareArguments& options) {
     if (!options.json_only) files.push_back({folder / "report.html", page});
     if (auto status = write_into_folder(folder, files); !status) return status;
     print_summary(*comparison);
+    print_stored(*comparison);
     fmt::print("{}\n", (folder / (options.json_only ? "report.json" : "report.html")).string());
     return Done{};
 }

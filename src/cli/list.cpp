@@ -1,6 +1,8 @@
 // lobelia list: every codec, or what codecs are made of.
 #include <fmt/core.h>
 
+#include <algorithm>
+
 #include "cli/verbs.h"
 #include "lobelia/codec.h"
 #include "lobelia/pack.h"
@@ -18,25 +20,57 @@ struct ListArguments {
     bool json = false;
 };
 
+/// Each evaluator with its bases; where they state other accuracies for it, a line for each.
+void print_evaluators() {
+    struct Entry {
+        std::string name, accuracy, bases;
+    };
+    std::vector<Entry> entries;
+    for (const auto& basis_name : basis_names()) {
+        const auto basis = make_basis(basis_name).value();
+        for (const auto& name : basis->evaluator_names()) {
+            const auto accuracy = basis->evaluator(name)->accuracy();
+            const std::string text = fmt::format("{}: {}", accuracy.range, accuracy.error);
+            const auto known = std::find_if(entries.begin(), entries.end(),
+                                            [&](const Entry& e) { return e.name == name && e.accuracy == text; });
+            if (known == entries.end())
+                entries.push_back({name, text, basis_name});
+            else
+                known->bases += ", " + basis_name;
+        }
+    }
+    std::stable_sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) { return a.name < b.name; });
+    fmt::print("evaluators: where they are valid, their largest error, their bases\n");
+    for (const Entry& e : entries) fmt::print("  {:<20} {}\n  {:<20}   {}\n", e.name, e.accuracy, "", e.bases);
+}
+
+/// The readings of glossy reflection with their bases; "sampled" has all.
+void print_gloss() {
+    std::vector<std::pair<std::string, std::string>> readings;
+    for (const auto& basis_name : basis_names())
+        for (const auto& name : make_basis(basis_name).value()->specular_names()) {
+            const auto known =
+                std::find_if(readings.begin(), readings.end(), [&](const auto& r) { return r.first == name; });
+            if (known == readings.end())
+                readings.emplace_back(name, basis_name);
+            else
+                known->second += ", " + basis_name;
+        }
+    readings.emplace_back("sampled", "every basis");
+    fmt::print("readings of gloss\n");
+    for (const auto& [name, bases] : readings) fmt::print("  {:<20} {}\n", name, bases);
+}
+
 void print_axes() {
-    fmt::print("bases (one RGB coefficient per function)\n");
+    fmt::print("bases\n");
     for (const auto& name : basis_names()) fmt::print("  {:<20} {}\n", name, make_basis(name).value()->description());
     for (const auto& [pattern, meaning] : basis_name_patterns()) fmt::print("  {:<20} {}\n", pattern, meaning);
     fmt::print("encoders\n");
     for (const auto& name : encoder_names()) fmt::print("  {}\n", name);
     fmt::print("encoders for study, not in the product\n");
     for (const auto& name : encoder_variant_names()) fmt::print("  {}\n", name);
-    fmt::print("evaluators\n");
-    std::vector<std::string> seen;
-    for (const auto& name : basis_names()) {
-        const auto basis = make_basis(name).value();
-        for (const auto& evaluator : basis->evaluator_names()) {
-            if (std::find(seen.begin(), seen.end(), evaluator) != seen.end()) continue;
-            seen.push_back(evaluator);
-            const auto accuracy = basis->evaluator(evaluator)->accuracy();
-            fmt::print("  {:<20} {}: error at most {}\n", evaluator, accuracy.range, accuracy.error);
-        }
-    }
+    print_evaluators();
+    print_gloss();
     fmt::print("storages\n");
     for (const Storage& storage : storages()) fmt::print("  {:<20} {}\n", storage.name, storage.description);
     fmt::print("A codec is one of each, basis/encoder/evaluator; lobelia list prints all {} of the sensible product.\n",
@@ -45,19 +79,13 @@ void print_axes() {
 
 /// The traits of a codec's coefficients; of a basis, those that its non-negative encoders give, where it has any.
 Result<CoefficientTraits> traits_of(const std::string& name) {
-    if (name.find('/') != std::string::npos) {
-        const auto codec = make_codec(name);
-        if (!codec) return codec.error();
-        return coefficient_traits(*codec->encoder());
-    }
+    // A basis first: the path of a lobe file may hold slashes, too.
     const auto basis = make_basis(name);
-    if (!basis) return basis.error();
-    CoefficientTraits traits;
-    for (const auto& encoder : encoder_names(**basis)) {
-        traits = coefficient_traits(*make_encoder(encoder, *basis).value());
-        if (traits.non_negative) break;
-    }
-    return traits;
+    if (basis) return coefficient_traits(*basis);
+    if (name.find('/') == std::string::npos) return basis.error();
+    const auto codec = make_codec(name);
+    if (!codec) return codec.error();
+    return coefficient_traits(*codec->encoder());
 }
 
 void print_layout(const Storage& storage, const TextureLayout& layout) {
@@ -97,8 +125,8 @@ Verb add_list(CLI::App& app) {
                                         "The textures in which each storage that suits keeps the coefficients of this "
                                         "basis or codec, instead");
     command->add_flag("--json", options->json, "These as JSON")->needs(layouts);
-    return {command, [options]() -> Status {
-                if (!options->storages.empty())
+    return {command, [options, layouts]() -> Status {
+                if (layouts->count() > 0)
                     return print_layouts(options->storages, options->json ? Output::json : Output::text);
                 if (options->axes)
                     print_axes();

@@ -2,6 +2,8 @@
 // are found from a linear one.
 #pragma once
 
+#include <algorithm>
+#include <iterator>
 #include <optional>
 
 #include "lobelia/evaluator.h"
@@ -72,7 +74,10 @@ class Basis {
 
     // What a storage may make use of.
     /// Whether each coefficient is a colour, so that its chroma may be kept more coarsely than its luma.
-    [[nodiscard]] virtual bool has_colours() const { return true; }
+    [[nodiscard]] virtual bool has_colours() const {
+        const auto meaning_of = meanings();
+        return std::count(meaning_of.begin(), meaning_of.end(), Meaning::light) == std::ssize(meaning_of);
+    }
     /// Bounds b_i with |c_i| <= b_i c_0, channel by channel, for the coefficients of any light that is >= 0; empty
     /// where the first coefficient bounds nothing. b_0 = 1.
     [[nodiscard]] virtual std::vector<float> lead_bounds() const { return {}; }

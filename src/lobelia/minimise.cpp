@@ -67,53 +67,71 @@ class History {
     double scale_ = 1;
 };
 
+/// Downhill by what the last steps tell of the curvature, or along the gradient where that leads uphill. Returns the
+/// slope along it.
+double find_direction(History& history, std::span<const double> gradient, std::span<double> direction) {
+    const auto along_gradient = [&] {
+        for (std::size_t i = 0; i < direction.size(); ++i) direction[i] = -gradient[i];
+    };
+    along_gradient();
+    history.apply(direction);
+    const double slope = dot(direction, gradient);
+    if (slope < 0) return slope;
+    history.forget();
+    along_gradient();
+    return dot(direction, gradient);
+}
+
+/// A place, f there and its gradient.
+struct Place {
+    std::vector<double> x, gradient;
+    double value = 0;
+};
+
+/// Shortens the step until it gains its share; false if none does.
+bool step_down(const Objective& f, const Place& from, std::span<const double> direction, double slope, double length,
+               Place& to) {
+    for (int halving = 0; halving < 12; ++halving, length *= 0.4) {
+        for (std::size_t i = 0; i < to.x.size(); ++i) to.x[i] = from.x[i] + length * direction[i];
+        to.value = f(to.x, to.gradient);
+        if (to.value <= from.value + 1e-4 * length * slope) return true;
+    }
+    return false;
+}
+
 }  // namespace
 
 double minimise(const Objective& f, std::span<double> x, const MinimiseOptions& options) {
     const std::size_t n = x.size();
     History history(options.history, n);
-    std::vector<double> gradient(n), next(n), next_gradient(n), direction(n), step(n), change(n);
-    double value = f(x, gradient);
+    Place here{{x.begin(), x.end()}, std::vector<double>(n), 0}, next = here;
+    std::vector<double> direction(n), step(n), change(n);
+    here.value = f(here.x, here.gradient);
     for (std::size_t iteration = 0; iteration < options.most_steps; ++iteration) {
-        // Downhill by what the last steps tell of the curvature; afresh where that leads uphill.
-        for (std::size_t i = 0; i < n; ++i) direction[i] = -gradient[i];
-        history.apply(direction);
-        double slope = dot(direction, gradient);
-        if (!(slope < 0)) {
-            history.forget();
-            for (std::size_t i = 0; i < n; ++i) direction[i] = -gradient[i];
-            slope = dot(direction, gradient);
-        }
+        // Aim, and go no further than is trusted.
+        const double slope = find_direction(history, here.gradient, direction);
         const double reach = largest(direction);
         if (!(slope < 0) || !(reach > 0)) break;
         const double most = (history.empty() ? options.first_step : options.longest_step) / reach;
-        double length = history.empty() ? most : std::min(1.0, most);
-
-        // Shorten the step until it gains its share.
-        bool lower = false;
-        double next_value = value;
-        for (int halving = 0; halving < 12 && !lower; ++halving, length *= 0.4) {
-            for (std::size_t i = 0; i < n; ++i) next[i] = x[i] + length * direction[i];
-            next_value = f(next, next_gradient);
-            lower = next_value <= value + 1e-4 * length * slope;
-        }
-        if (!lower) {
+        const double length = history.empty() ? most : std::min(1.0, most);
+        if (!step_down(f, here, direction, slope, length, next)) {
             if (history.empty()) break;
             history.forget();
             continue;
         }
+
+        // Remember how the gradient changed on the way.
         for (std::size_t i = 0; i < n; ++i) {
-            step[i] = next[i] - x[i];
-            change[i] = next_gradient[i] - gradient[i];
+            step[i] = next.x[i] - here.x[i];
+            change[i] = next.gradient[i] - here.gradient[i];
         }
         history.keep(step, change);
-        const double gained = value - next_value;
-        std::copy(next.begin(), next.end(), x.begin());
-        gradient.swap(next_gradient);
-        value = next_value;
-        if (gained <= options.least_change * std::abs(value)) break;
+        const double gained = here.value - next.value;
+        std::swap(here, next);
+        if (gained <= options.least_change * std::abs(here.value)) break;
     }
-    return value;
+    std::copy(here.x.begin(), here.x.end(), x.begin());
+    return here.value;
 }
 
 }  // namespace lobelia

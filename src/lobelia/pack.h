@@ -16,8 +16,8 @@ struct CoefficientTraits {
 };
 
 [[nodiscard]] CoefficientTraits coefficient_traits(const Encoder& encoder);
-/// Of a basis whose encoder is not known: coefficients might be >= 0, and are taken to be.
-[[nodiscard]] CoefficientTraits coefficient_traits(const Basis& basis);
+/// Of the encoders that a basis is listed with, those of a non-negative one where it has any: most storages suit it.
+[[nodiscard]] CoefficientTraits coefficient_traits(const std::shared_ptr<const Basis>& basis);
 
 /// A way to store coefficients; all of it is data.
 struct Storage {
@@ -32,6 +32,8 @@ struct Storage {
 /// THE list (pack/storages.cpp).
 [[nodiscard]] std::span<const Storage> storages();
 [[nodiscard]] bool suits(const Storage& storage, const CoefficientTraits& traits);
+/// Whether texels beside each other have bits in common, so that a single one tells nothing of the error.
+[[nodiscard]] bool shares_texels(const Storage& storage);
 /// By name; the error of an unknown one lists the nearest.
 [[nodiscard]] Result<const Storage*> find_storage(std::string_view name);
 /// By names, each once; the error of one that does not suit says what it wants and which do.

@@ -158,7 +158,7 @@ nlohmann::json to_json(const Advice& advice) {
         return j;
     };
     nlohmann::json j = {{"format", 1},
-                        {"need", to_string(advice.options.need)},
+                        {"need", advice.options.need == Need::specular ? "specular" : to_string(advice.options.need)},
                         {"target", advice.options.target},
                         {"reason", advice.reason}};
     if (advice.options.budget) j["budget"] = *advice.options.budget;

@@ -2,10 +2,12 @@
 #include "report/bases_page.h"
 
 #include <algorithm>
+#include <iomanip>
 #include <sstream>
 #include <vector>
 
 #include "lobelia/codec.h"
+#include "lobelia/pack.h"
 #include "lobelia/specular.h"
 
 namespace lobelia {
@@ -91,6 +93,29 @@ std::string vectors_among(const Basis& basis) {
            " or the like, not light.";
 }
 
+/// What values its coefficients may have, as far as its traits tell, and what keeps them.
+std::string ranges(const BasisPtr& basis) {
+    const CoefficientTraits traits = coefficient_traits(basis);
+    std::ostringstream text;
+    if (!traits.lead_bounds.empty()) {
+        text << "**Ranges** of `" << basis->name()
+             << "`, for light that is nowhere negative, degree by degree: at most ";
+        const auto& bounds = traits.lead_bounds;
+        for (std::size_t i = 0; i < bounds.size(); ++i)
+            if (i == 0 || bounds[i] != bounds[i - 1]) text << (i == 0 ? "" : ", ") << std::setprecision(3) << bounds[i];
+        text << " times the first, channel by channel. ";
+    } else if (traits.non_negative) {
+        text << "**Ranges** at least 0 from a non-negative encoder, of both signs from the others. ";
+    } else if (basis->linear()) {
+        text << "**Ranges** of both signs, without a bound. ";
+    }
+    std::vector<std::string> names;
+    for (const Storage& storage : storages())
+        if (suits(storage, traits)) names.emplace_back(storage.name);
+    text << "[Stored](storage.md) as " << joined(names) << ".";
+    return text.str();
+}
+
 std::string evaluators(const std::vector<BasisPtr>& family) {
     std::string text = "| evaluator | range | error | below 0 |\n|---|---|---|---|\n";
     std::vector<std::string> seen;
@@ -143,6 +168,7 @@ std::string section(const std::vector<BasisPtr>& family) {
     text += "\n```\n" + wrapped(notes.formula) + "```\n\n" + pictures(family);
     text += wrapped("**Good at** " + notes.good_at + ".") + "\n";
     text += wrapped("**Bad at** " + notes.bad_at + ".") + "\n";
+    text += wrapped(ranges(family.back())) + "\n";
     const auto listed = first.listed_encoders();
     text += wrapped("Listed with " +
                     (listed.empty() ? std::string("every encoder that suits it") : "the encoders " + joined(listed)) +

@@ -57,7 +57,7 @@ class KnownTextures {
         if (m.options.codec.empty()) return;
         // Good by now.
         const auto name = parse_codec_name(m.options.codec);
-        traits_ = coefficient_traits(*make_basis(name->basis).value());
+        traits_ = coefficient_traits(make_basis(name->basis).value());
     }
     [[nodiscard]] const TextureLayout::Texture& at(const JsonPlace& place) {
         const JsonPlace storage_place = place.at("storage"), name_place = place.at("name");

@@ -265,6 +265,12 @@ std::shared_ptr<const Evaluator> DirectionalLightmap::evaluator(std::string_view
     return nullptr;
 }
 
+std::vector<float> DirectionalLightmap::lead_bounds() const {
+    if (kind_ != Kind::sh1h) return {};
+    const float degree_1 = std::sqrt(3.0f);
+    return {1, degree_1, degree_1, degree_1};
+}
+
 Basis::Rotated DirectionalLightmap::rotated(const Rotation& r, std::span<const Rgb> c) const {
     std::vector<Rgb> turned(c.begin(), c.end());
     if (kind_ == Kind::enlighten) {

@@ -59,6 +59,8 @@ class DirectionalLightmap final : public FittedBasis {
     [[nodiscard]] std::vector<std::string> evaluator_names() const override { return {"linear", "linear-signed"}; }
     [[nodiscard]] std::shared_ptr<const Evaluator> evaluator(std::string_view name) const override;
     [[nodiscard]] Rotated rotated(const Rotation& r, std::span<const Rgb> c) const override;
+    /// Of sh1h those of any light that is >= 0. The others can have directions without a mean, or store ratios already.
+    [[nodiscard]] std::vector<float> lead_bounds() const override;
 
     /// E of each channel as the coefficients have it.
     [[nodiscard]] std::array<LinearIrradiance, 3> irradiance(std::span<const Rgb> c) const;

@@ -248,6 +248,12 @@ std::shared_ptr<const Evaluator> Zh3::evaluator(std::string_view name) const {
     return nullptr;
 }
 
+std::vector<float> Zh3::lead_bounds() const {
+    if (axis_ == Axis::shared) return {};
+    const float degree_1 = std::sqrt(3.0f), degree_2 = std::sqrt(5.0f);
+    return {1, degree_1, degree_1, degree_1, degree_2};
+}
+
 Basis::Rotated Zh3::rotated(const Rotation& r, std::span<const Rgb> c) const {
     std::vector<Rgb> turned = harmonics::rotated(r, c.first(4));
     turned.push_back(c[4]);

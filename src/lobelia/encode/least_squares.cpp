@@ -8,53 +8,88 @@
 
 namespace lobelia {
 
+namespace {
+
+/// Lawson and Hanson's active set: which coefficients are free to be positive, and how far they have come.
+class FreeSet {
+  public:
+    FreeSet(const Eigen::MatrixXd& gram, const Eigen::VectorXd& target)
+        : gram_(gram),
+          target_(target),
+          b_(Eigen::VectorXd::Zero(target.size())),
+          barred_(static_cast<std::size_t>(target.size()), false),
+          tolerance_(1e-12 * std::max(target.cwiseAbs().maxCoeff(), 1e-300)) {}
+
+    /// Frees the coefficient that wants most to grow; -1 when none does.
+    Eigen::Index free_next() {
+        const Eigen::VectorXd gradient = target_ - gram_ * b_;
+        Eigen::Index best = -1;
+        for (Eigen::Index i = 0; i < b_.size(); ++i)
+            if (!is_free(i) && gradient(i) > tolerance_ && !barred_[static_cast<std::size_t>(i)] &&
+                (best < 0 || gradient(i) > gradient(best)))
+                best = i;
+        if (best >= 0) free_.push_back(best);
+        return best;
+    }
+
+    /// Walks towards the solution among the free; whatever would turn negative on the way is fixed at 0 again.
+    void walk() {
+        Eigen::VectorXd s = solve_free();
+        while (!free_.empty() && s.minCoeff() <= 0) {
+            double reach = 1;
+            for (std::size_t k = 0; k < free_.size(); ++k) {
+                const double at = b_(free_[k]), to = s(static_cast<Eigen::Index>(k));
+                if (to <= 0) reach = std::min(reach, at / (at - to));
+            }
+            for (std::size_t k = 0; k < free_.size(); ++k)
+                b_(free_[k]) += reach * (s(static_cast<Eigen::Index>(k)) - b_(free_[k]));
+            std::erase_if(free_, [&](Eigen::Index i) { return b_(i) <= tolerance_ * 1e-3; });
+            for (Eigen::Index i = 0; i < b_.size(); ++i)
+                if (!is_free(i)) b_(i) = 0;
+            if (!free_.empty()) s = solve_free();
+        }
+        for (std::size_t k = 0; k < free_.size(); ++k) b_(free_[k]) = s(static_cast<Eigen::Index>(k));
+    }
+
+    /// What rounding fixes at 0 again at once would be freed for ever; it is barred until something else has moved.
+    void bar_if_fixed(Eigen::Index last_freed) {
+        const bool stayed = is_free(last_freed);
+        if (stayed) std::fill(barred_.begin(), barred_.end(), false);
+        barred_[static_cast<std::size_t>(last_freed)] = !stayed;
+    }
+
+    [[nodiscard]] const Eigen::VectorXd& coefficients() const { return b_; }
+
+  private:
+    [[nodiscard]] bool is_free(Eigen::Index i) const { return std::find(free_.begin(), free_.end(), i) != free_.end(); }
+    /// The unconstrained solution on the free ones alone.
+    [[nodiscard]] Eigen::VectorXd solve_free() const {
+        const Eigen::MatrixXd sub = gram_(free_, free_);
+        return Eigen::VectorXd(sub.ldlt().solve(target_(free_)));
+    }
+
+    const Eigen::MatrixXd& gram_;
+    const Eigen::VectorXd& target_;
+    Eigen::VectorXd b_;
+    std::vector<Eigen::Index> free_;
+    std::vector<bool> barred_;
+    double tolerance_;
+};
+
+}  // namespace
+
 std::vector<double> non_negative_least_squares(const Matrix& gram, std::span<const double> m) {
     const auto n = static_cast<Eigen::Index>(m.size());
     const Eigen::MatrixXd g = as_matrix(gram, m.size());
     const Eigen::VectorXd target = Eigen::Map<const Eigen::VectorXd>(m.data(), n);
-    Eigen::VectorXd b = Eigen::VectorXd::Zero(n);
-    std::vector<Eigen::Index> passive;
-    std::vector<bool> barred(m.size(), false);
-    const double tolerance = 1e-12 * std::max(target.cwiseAbs().maxCoeff(), 1e-300);
-
-    // The unconstrained solution on the passive set alone.
-    const auto solve_passive = [&] {
-        const Eigen::MatrixXd sub = g(passive, passive);
-        return Eigen::VectorXd(sub.ldlt().solve(target(passive)));
-    };
+    FreeSet set(g, target);
     for (Eigen::Index step = 0; step < 10 * n; ++step) {
-        // Free the coefficient that wants most to grow; done when none does.
-        const Eigen::VectorXd gradient = target - g * b;
-        Eigen::Index best = -1;
-        for (Eigen::Index i = 0; i < n; ++i)
-            if (std::find(passive.begin(), passive.end(), i) == passive.end() && gradient(i) > tolerance &&
-                !barred[static_cast<std::size_t>(i)] && (best < 0 || gradient(i) > gradient(best)))
-                best = i;
-        if (best < 0) break;
-        passive.push_back(best);
-
-        // Walk towards the passive solution; whatever would turn negative on the way is fixed at 0 again.
-        Eigen::VectorXd s = solve_passive();
-        while (!passive.empty() && s.minCoeff() <= 0) {
-            double reach = 1;
-            for (std::size_t k = 0; k < passive.size(); ++k) {
-                const double at = b(passive[k]), to = s(static_cast<Eigen::Index>(k));
-                if (to <= 0) reach = std::min(reach, at / (at - to));
-            }
-            for (std::size_t k = 0; k < passive.size(); ++k)
-                b(passive[k]) += reach * (s(static_cast<Eigen::Index>(k)) - b(passive[k]));
-            std::erase_if(passive, [&](Eigen::Index i) { return b(i) <= tolerance * 1e-3; });
-            for (Eigen::Index i = 0; i < n; ++i)
-                if (std::find(passive.begin(), passive.end(), i) == passive.end()) b(i) = 0;
-            if (!passive.empty()) s = solve_passive();
-        }
-        for (std::size_t k = 0; k < passive.size(); ++k) b(passive[k]) = s(static_cast<Eigen::Index>(k));
-
-        // What rounding fixes at 0 again at once would be freed for ever; bar it until something else has moved.
-        const bool stayed = std::find(passive.begin(), passive.end(), best) != passive.end();
-        if (stayed) std::fill(barred.begin(), barred.end(), false);
-        barred[static_cast<std::size_t>(best)] = !stayed;
+        const Eigen::Index freed = set.free_next();
+        if (freed < 0) break;
+        set.walk();
+        set.bar_if_fixed(freed);
     }
+    const Eigen::VectorXd& b = set.coefficients();
     return {b.data(), b.data() + n};
 }
 

@@ -221,13 +221,16 @@ double bound_at(const ErrorBound& bound, const CoefficientTraits& traits, const 
 
 std::span<const Storage> storages() { return k_storages; }
 
-CoefficientTraits coefficient_traits(const Basis& basis) {
-    return {basis.size(), true, basis.has_colours(), basis.lead_bounds()};
+CoefficientTraits coefficient_traits(const Encoder& encoder) {
+    const Basis& basis = encoder.basis();
+    return {basis.size(), encoder.is_non_negative(), basis.has_colours(), basis.lead_bounds()};
 }
 
-CoefficientTraits coefficient_traits(const Encoder& encoder) {
-    CoefficientTraits traits = coefficient_traits(encoder.basis());
-    traits.non_negative = encoder.is_non_negative();
+CoefficientTraits coefficient_traits(const std::shared_ptr<const Basis>& basis) {
+    CoefficientTraits traits{basis->size(), false, basis->has_colours(), basis->lead_bounds()};
+    if (basis->linear() == nullptr || !basis->linear()->is_non_negative()) return traits;
+    for (const auto& encoder : encoder_names(*basis))
+        traits.non_negative = traits.non_negative || make_encoder(encoder, basis).value()->is_non_negative();
     return traits;
 }
 
@@ -243,6 +246,11 @@ bool suits(const Storage& storage, const CoefficientTraits& traits) {
             return !traits.lead_bounds.empty();
     }
     return false;
+}
+
+bool shares_texels(const Storage& storage) {
+    const CoefficientTraits any{1, true, true, {1}};
+    return shares_texels(storage.layout(any));
 }
 
 Result<const Storage*> find_storage(std::string_view name) {

@@ -44,26 +44,27 @@ function representative_methods() {
     return domains.flatMap((domain) =>
         representatives_of(
             methods.filter((method) => method.domain === domain),
-            domains.length > 1 ? 4 : 6,
+            domains.length > 1 ? 5 : 7,
         ),
     );
 }
 
-/// For each family its smallest method whose irradiance error is within a tenth of the family's lowest; then, as long
-/// as there is room, the best of each further basis, small ones first. In order of size.
+/// Of the methods that none of their size or smaller beats in irradiance, some from the smallest to the largest; and
+/// the one of the least radiance error. In order of size.
 function representatives_of(candidates, most) {
     const error = (method) => figure_or_last(method, quantities.irradiance.rms);
-    const by_error = [...candidates].sort((a, b) => error(a) - error(b));
-    const by_size = [...by_error].sort((a, b) => a.floats - b.floats); // stable: the best of a size comes first
-    const chosen = [];
-    for (const family of new Set(by_error.map(family_of))) {
-        const lowest = error(by_error.find((method) => family_of(method) === family));
-        chosen.push(
-            by_size.find((method) => family_of(method) === family && error(method) <= 1.1 * lowest) ?? by_size[0],
-        );
-    }
-    for (const method of by_size) if (!chosen.some(({ basis }) => basis === method.basis)) chosen.push(method);
-    return chosen.slice(0, most).sort((a, b) => a.floats - b.floats);
+    const by_size = [...candidates].sort((a, b) => a.floats - b.floats || error(a) - error(b));
+    let least = Infinity;
+    const front = by_size.filter((method) => {
+        const better = error(method) < least;
+        least = Math.min(least, error(method));
+        return better;
+    });
+    const radiance_error = (method) => figure_or_last(method, quantities.radiance.rms);
+    const sharpest = by_size.reduce((best, method) => (radiance_error(method) < radiance_error(best) ? method : best));
+    const count = Math.min(front.length, most - 1);
+    const spread = Array.from({ length: count }, (_, i) => front[Math.round((i * (front.length - 1)) / (count - 1 || 1))]);
+    return [...new Set([...spread, sharpest])].sort((a, b) => a.floats - b.floats);
 }
 
 // ---- Pictures: null where the report has none

@@ -86,7 +86,7 @@ function connect_page() {
 by_id("pictures-rule").textContent =
     picture_table.chosen.length === methods.length
         ? "All methods of this report beside the reference."
-        : "The best methods, by irradiance error, of each family of bases and of the smaller bases; the table pins others.";
+        : "For some sizes the method of the least irradiance error, and the one of the least radiance error; the table pins others.";
 build_header();
 build_filters();
 build_picture_table();
