@@ -2,8 +2,6 @@
 // either side of it.
 #include "lobelia/pack/logluv.h"
 
-#include "lobelia/planes.h"
-
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "lobelia/pack/logluv.cpp"
 #include <hwy/foreach_target.h>  // NOLINT: must precede highway.h
@@ -11,14 +9,11 @@
 // NOLINTNEXTLINE: after highway.h
 #include <hwy/contrib/math/math-inl.h>
 
+// NOLINTNEXTLINE: after highway.h
+#include "lobelia/pack/words-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace lobelia::texels::HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
-
-using D = hn::CappedTag<float, k_lanes>;
-using I = hn::RebindToSigned<D>;
-using V = hn::Vec<D>;
-using VI = hn::Vec<I>;
 
 HWY_INLINE V sum_of(V x, float a, V y, float b, V z, float c) {
     const D d;
@@ -55,7 +50,7 @@ void DecodeLogluv(const std::int32_t* in, std::size_t count, float* const* out) 
         // Y = 2^whole times e^(the rest), the rest below ln 2.
         const V rest = hn::Add(hn::ConvertTo(d, hn::And(log, hn::Set(di, 255))), hn::Set(d, 0.5f));
         const V fraction = hn::Exp(d, hn::Mul(rest, hn::Set(d, 0.693147181f / k_log_steps)));
-        const V power = hn::BitCast(d, hn::ShiftLeft<23>(hn::Add(hn::ShiftRight<8>(log), hn::Set(di, 127 - 64))));
+        const V power = power_of_two(hn::Sub(hn::ShiftRight<8>(log), hn::Set(di, 64)));
         const V Y = hn::IfThenElseZero(hn::RebindMask(d, hn::Gt(log, hn::Zero(di))), hn::Mul(fraction, power));
 
         const auto chroma = [&](VI word) {

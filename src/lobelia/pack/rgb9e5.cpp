@@ -1,61 +1,32 @@
 // RGB9E5, many texels at once.
 #include "lobelia/pack/rgb9e5.h"
 
-#include "lobelia/planes.h"
-
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "lobelia/pack/rgb9e5.cpp"
 #include <hwy/foreach_target.h>  // NOLINT: must precede highway.h
 #include <hwy/highway.h>
+// NOLINTNEXTLINE: after highway.h
+#include "lobelia/pack/words-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lobelia::texels::HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
-
-using D = hn::CappedTag<float, k_lanes>;
-using I = hn::RebindToSigned<D>;
-using V = hn::Vec<D>;
-using VI = hn::Vec<I>;
-
-HWY_INLINE V cut(const float* in) {
-    const D d;
-    return hn::Min(hn::Max(hn::LoadU(d, in), hn::Zero(d)), hn::Set(d, k_largest_rgb9e5));
-}
-HWY_INLINE VI rounded(V v, V steps) {
-    return hn::Min(hn::ConvertTo(I(), hn::Add(hn::Mul(v, steps), hn::Set(D(), 0.5f))), hn::Set(I(), 511));
-}
-/// 2^(24 - exponent).
-HWY_INLINE V steps_of(VI exponent) {
-    return hn::BitCast(D(), hn::ShiftLeft<23>(hn::Sub(hn::Set(I(), 127 + 24), exponent)));
-}
 
 void EncodeRgb9e5(const float* const* in, std::size_t count, std::int32_t* out) {
     const I di;
     for (std::size_t i = 0; i < count; i += hn::Lanes(di)) {
-        const V r = cut(in[0] + i), g = cut(in[1] + i), b = cut(in[2] + i), largest = hn::Max(hn::Max(r, g), b);
-        const VI exponent_field = hn::ShiftRight<23>(hn::BitCast(di, largest));
+        const Components c = cut(in, i, k_largest_rgb9e5);
+        const VI exponent_field = hn::ShiftRight<23>(hn::BitCast(di, c.largest()));
         const VI exponent = hn::Max(hn::Sub(exponent_field, hn::Set(di, 127 - 16)), hn::Zero(di));
-        const V steps = steps_of(exponent);
-        const VI rg = hn::Or(rounded(r, steps), hn::ShiftLeft<9>(rounded(g, steps)));
-        const VI be = hn::Or(hn::ShiftLeft<18>(rounded(b, steps)), hn::ShiftLeft<27>(exponent));
-        hn::StoreU(hn::Or(rg, be), di, out + i);
+        const V steps = power_of_two(hn::Sub(hn::Set(di, 24), exponent));
+        hn::StoreU(word_of<9>(c, steps, exponent), di, out + i);
     }
 }
 
 void DecodeRgb9e5(const std::uint32_t* in, std::size_t count, float* const* out) {
-    const D d;
-    const hn::RebindToUnsigned<D> u;
-    for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
-        const auto packed = hn::LoadU(u, in + i);
-        const auto exponent = hn::ShiftRight<27>(packed);
-        const V step = hn::BitCast(d, hn::ShiftLeft<23>(hn::Add(exponent, hn::Set(u, 127 - 24))));
-        const auto store = [&](auto word, float* to) {
-            const auto mantissa = hn::And(word, hn::Set(u, 511));
-            hn::StoreU(hn::Mul(hn::ConvertTo(d, hn::BitCast(I(), mantissa)), step), d, to);
-        };
-        store(packed, out[0] + i);
-        store(hn::ShiftRight<9>(packed), out[1] + i);
-        store(hn::ShiftRight<18>(packed), out[2] + i);
+    for (std::size_t i = 0; i < count; i += hn::Lanes(D())) {
+        const VU packed = hn::LoadU(U(), in + i);
+        const VI exponent = hn::BitCast(I(), hn::ShiftRight<27>(packed));
+        store_components<9>(packed, power_of_two(hn::Sub(exponent, hn::Set(I(), 24))), out, i);
     }
 }
 

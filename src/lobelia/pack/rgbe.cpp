@@ -1,63 +1,37 @@
 // RGBE, many texels at once.
 #include "lobelia/pack/rgbe.h"
 
-#include "lobelia/planes.h"
-
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "lobelia/pack/rgbe.cpp"
 #include <hwy/foreach_target.h>  // NOLINT: must precede highway.h
 #include <hwy/highway.h>
+// NOLINTNEXTLINE: after highway.h
+#include "lobelia/pack/words-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lobelia::texels::HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
-
-using D = hn::CappedTag<float, k_lanes>;
-using I = hn::RebindToSigned<D>;
-using V = hn::Vec<D>;
-using VI = hn::Vec<I>;
-
-HWY_INLINE V cut(const float* in) {
-    const D d;
-    return hn::Min(hn::Max(hn::LoadU(d, in), hn::Zero(d)), hn::Set(d, k_largest_rgbe));
-}
-HWY_INLINE VI rounded(V v, V steps) {
-    return hn::Min(hn::ConvertTo(I(), hn::Add(hn::Mul(v, steps), hn::Set(D(), 0.5f))), hn::Set(I(), 255));
-}
-/// 2^(136 - exponent).
-HWY_INLINE V steps_of(VI exponent) {
-    return hn::BitCast(D(), hn::ShiftLeft<23>(hn::Sub(hn::Set(I(), 127 + 136), exponent)));
-}
 
 void EncodeRgbe(const float* const* in, std::size_t count, std::int32_t* out) {
     const I di;
     for (std::size_t i = 0; i < count; i += hn::Lanes(di)) {
-        const V r = cut(in[0] + i), g = cut(in[1] + i), b = cut(in[2] + i), largest = hn::Max(hn::Max(r, g), b);
+        const Components c = cut(in, i, k_largest_rgbe);
+        const V largest = c.largest();
         const VI exponent = hn::Add(hn::ShiftRight<23>(hn::BitCast(di, largest)), hn::Set(di, 2));
-        const V steps = steps_of(exponent);
-        const VI rg = hn::Or(rounded(r, steps), hn::ShiftLeft<8>(rounded(g, steps)));
-        const VI be = hn::Or(hn::ShiftLeft<16>(rounded(b, steps)), hn::ShiftLeft<24>(exponent));
+        const V steps = power_of_two(hn::Sub(hn::Set(di, 136), exponent));
         const auto lit = hn::RebindMask(di, hn::Ge(largest, hn::Set(D(), k_least_rgbe)));
-        hn::StoreU(hn::IfThenElseZero(lit, hn::Or(rg, be)), di, out + i);
+        hn::StoreU(hn::IfThenElseZero(lit, word_of<8>(c, steps, exponent)), di, out + i);
     }
 }
 
 void DecodeRgbe(const std::uint32_t* in, std::size_t count, float* const* out) {
-    const D d;
-    const hn::RebindToUnsigned<D> u;
-    for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
-        const auto packed = hn::LoadU(u, in + i);
-        const auto exponent = hn::ShiftRight<24>(packed), half = hn::ShiftRight<1>(exponent);
-        const auto power = [&](auto e) { return hn::BitCast(d, hn::ShiftLeft<23>(hn::Add(e, hn::Set(u, 127 - 68)))); };
-        const auto lit = hn::Gt(hn::BitCast(I(), exponent), hn::Zero(I()));
-        const V step = hn::IfThenElseZero(hn::RebindMask(d, lit), hn::Mul(power(half), power(hn::Sub(exponent, half))));
-        const auto store = [&](auto word, float* to) {
-            const auto mantissa = hn::And(word, hn::Set(u, 255));
-            hn::StoreU(hn::Mul(hn::ConvertTo(d, hn::BitCast(I(), mantissa)), step), d, to);
-        };
-        store(packed, out[0] + i);
-        store(hn::ShiftRight<8>(packed), out[1] + i);
-        store(hn::ShiftRight<16>(packed), out[2] + i);
+    const I di;
+    for (std::size_t i = 0; i < count; i += hn::Lanes(di)) {
+        const VU packed = hn::LoadU(U(), in + i);
+        const VI exponent = hn::BitCast(di, hn::ShiftRight<24>(packed)), half = hn::ShiftRight<1>(exponent);
+        const auto root = [&](VI e) { return power_of_two(hn::Sub(e, hn::Set(di, 68))); };
+        const auto lit = hn::RebindMask(D(), hn::Gt(exponent, hn::Zero(di)));
+        const V step = hn::IfThenElseZero(lit, hn::Mul(root(half), root(hn::Sub(exponent, half))));
+        store_components<8>(packed, step, out, i);
     }
 }
 

@@ -1,24 +1,18 @@
 // Normalised 8- and 10-bit texels.
 #include "lobelia/pack/unorm.h"
 
-#include "lobelia/planes.h"
-
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "lobelia/pack/unorm.cpp"
 #include <hwy/foreach_target.h>  // NOLINT: must precede highway.h
 #include <hwy/highway.h>
+// NOLINTNEXTLINE: after highway.h
+#include "lobelia/pack/words-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lobelia::texels::HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
 
-using D = hn::CappedTag<float, k_lanes>;
-using U = hn::RebindToUnsigned<D>;
-using I = hn::RebindToSigned<D>;
 using U8 = hn::Rebind<std::uint8_t, D>;
 using U16 = hn::Rebind<std::uint16_t, D>;
-using V = hn::Vec<D>;
-using VU = hn::Vec<U>;
 
 HWY_INLINE VU unorm(const float* in, float steps) {
     const D d;
