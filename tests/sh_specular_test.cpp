@@ -1,6 +1,7 @@
 // Glossy reflection of spherical harmonics: exact limits, stated errors.
 #include "lobelia/bases/sh_specular.h"
 
+#include "lobelia/bases/specular_study.h"
 #include "lobelia/codec.h"
 #include "lobelia/harmonics.h"
 #include "lobelia/specular/ggx.h"
@@ -28,35 +29,10 @@ std::vector<Rgb> power_lobe(std::size_t degree, Vec3 axis) {
     return c;
 }
 
-/// PointsAtAngle over the sphere whose views are `cosine` from their normals, all of one alpha.
-struct PointsAtAngle {
-    Directions normals, views;
-    std::vector<float> alphas;
-    PointsAtAngle(std::size_t count, float cosine, float alpha) : normals(count), views(count), alphas(count, alpha) {
-        const Directions all = uniform_directions(Domain::sphere, Sequence::sobol, count, 4);
-        const float sine = std::sqrt(1 - cosine * cosine);
-        for (std::size_t i = 0; i < count; ++i) {
-            const auto frame = ggx::make_view(direction_at(all, i), direction_at(all, (i + 1) % count), alpha);
-            set_entry(normals, i, frame.z);
-            set_entry(views, i, normalize(frame.to_world({sine, 0, cosine})));
-        }
-    }
-    [[nodiscard]] SpecularPoints view() const { return {normals, views, alphas}; }
-};
-
 /// Root mean square of the difference to many rays, over that of the truth.
 double gloss_error(std::string_view name, std::size_t degree, std::span<const Rgb> c, const PointsAtAngle& points) {
     const auto basis = make_basis("sh" + std::to_string(degree)).value();
-    Colours out(points.alphas.size()), exact(points.alphas.size());
-    make_specular(name, basis).value()->reflected(c, points.view(), out);
-    make_sampled_specular(basis, 1024)->reflected(c, points.view(), exact);
-    double error = 0, truth = 0;
-    for (std::size_t i = 0; i < out.size(); ++i) {
-        const auto e = static_cast<double>(colour_at(exact, i).g), d = static_cast<double>(colour_at(out, i).g) - e;
-        error += d * d;
-        truth += e * e;
-    }
-    return std::sqrt(error / truth);
+    return relative_gloss_error(*make_specular(name, basis).value(), *make_sampled_specular(basis, 1024), c, points);
 }
 
 const Vec3 k_power_axis = normalize(Vec3{0.4f, -0.7f, 0.5f});

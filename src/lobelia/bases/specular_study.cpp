@@ -146,22 +146,6 @@ Study::Table furnace_table() {
     return table;
 }
 
-/// Points over the sphere, each seen at one angle from one side or another.
-struct StudyPoints {
-    Directions normals, views;
-    std::vector<float> alphas;
-    StudyPoints(std::size_t count, float cosine, float alpha) : normals(count), views(count), alphas(count, alpha) {
-        const Directions all = uniform_directions(Domain::sphere, Sequence::sobol, count, 4);
-        const float sine = std::sqrt(1 - cosine * cosine);
-        for (std::size_t i = 0; i < count; ++i) {
-            const auto frame = ggx::make_view(direction_at(all, i), direction_at(all, (i + 1) % count), alpha);
-            set_entry(normals, i, frame.z);
-            set_entry(views, i, normalize(frame.to_world({sine, 0, cosine})));
-        }
-    }
-    [[nodiscard]] SpecularPoints view() const { return {normals, views, alphas}; }
-};
-
 /// The harmonics of ((1 + z) / 2)^degree, which is nowhere negative.
 std::vector<Rgb> power_of_height(std::size_t degree) {
     const auto rule = product_rule(Domain::sphere, degree + 1);
@@ -174,20 +158,6 @@ std::vector<Rgb> power_of_height(std::size_t degree) {
             c[i] = c[i] + Rgb{1, 1, 1} * static_cast<float>(rule.weights[q] * light * y[i]);
     }
     return c;
-}
-
-double harmonic_error(const SpecularEvaluator& evaluator, const SpecularEvaluator& truth, std::span<const Rgb> c,
-                      const StudyPoints& points) {
-    Colours out(points.alphas.size()), exact(points.alphas.size());
-    evaluator.reflected(c, points.view(), out);
-    truth.reflected(c, points.view(), exact);
-    double error = 0, whole = 0;
-    for (std::size_t i = 0; i < out.size(); ++i) {
-        const auto e = static_cast<double>(colour_at(exact, i).g), d = static_cast<double>(colour_at(out, i).g) - e;
-        error += d * d;
-        whole += e * e;
-    }
-    return std::sqrt(error / whole);
 }
 
 Study::Table harmonics_table() {
@@ -203,11 +173,11 @@ Study::Table harmonics_table() {
                 const auto basis = std::make_shared<SphericalHarmonics>(degree);
                 const auto truth = make_sampled_specular(basis, 1024);
                 const auto c = power_of_height(degree);
-                const StudyPoints points(100, cosine, alpha);
+                const PointsAtAngle points(100, cosine, alpha);
                 std::vector<std::string> row = {table_number(static_cast<double>(alpha)),
                                                 table_number(static_cast<double>(cosine)), std::to_string(degree)};
                 for (const auto& name : sh_specular_names())
-                    row.push_back(table_number(harmonic_error(*basis->specular(name), *truth, c, points)));
+                    row.push_back(table_number(relative_gloss_error(*basis->specular(name), *truth, c, points)));
                 table.rows.push_back(row);
             }
     return table;
@@ -317,6 +287,31 @@ void add_glossy_spheres(Study& study, float alpha, float sharpness) {
 }
 
 }  // namespace
+
+PointsAtAngle::PointsAtAngle(std::size_t count, float cosine, float alpha)
+    : normals(count), views(count), alphas(count, alpha) {
+    const Directions all = uniform_directions(Domain::sphere, Sequence::sobol, count, 4);
+    const float sine = std::sqrt(1 - cosine * cosine);
+    for (std::size_t i = 0; i < count; ++i) {
+        const auto frame = ggx::make_view(direction_at(all, i), direction_at(all, (i + 1) % count), alpha);
+        set_entry(normals, i, frame.z);
+        set_entry(views, i, normalize(frame.to_world({sine, 0, cosine})));
+    }
+}
+
+double relative_gloss_error(const SpecularEvaluator& evaluator, const SpecularEvaluator& truth, std::span<const Rgb> c,
+                            const PointsAtAngle& points) {
+    Colours out(points.alphas.size()), exact(points.alphas.size());
+    evaluator.reflected(c, points.view(), out);
+    truth.reflected(c, points.view(), exact);
+    double error = 0, whole = 0;
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        const auto e = static_cast<double>(colour_at(exact, i).g), d = static_cast<double>(colour_at(out, i).g) - e;
+        error += d * d;
+        whole += e * e;
+    }
+    return std::sqrt(error / whole);
+}
 
 Study study_specular() {
     Study study;
