@@ -1,13 +1,12 @@
 // Layouts, charts and the map of texels, against exact clipping of every triangle with every texel.
 #include "baker/atlas/atlas.h"
 
-#include <oneapi/tbb/global_control.h>
-
 #include <random>
 #include <set>
 
 #include "scenes.h"
 #include "support.h"
+#include "threads.h"
 
 namespace lobelia {
 namespace {
@@ -128,8 +127,7 @@ TEST(TexelMap, IsTheSameAtAnyNumberOfThreads) {
     const World world = make_world(scene_of({flat_triangles(random_triangles(3000, 0.03f, 8))}));
     const Atlas atlas = atlas_of(world, {.width = 700, .height = 700});
     const auto run = [&](std::size_t threads) {
-        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-        return map_texels(atlas);
+        return test::with_threads(threads, [&] { return map_texels(atlas); });
     };
     const TexelMap one = run(1), four = run(4);
     EXPECT_EQ(one.triangle, four.triangle);

@@ -2,7 +2,6 @@
 #include "report/comparison.h"
 
 #include <gtest/gtest.h>
-#include <oneapi/tbb/global_control.h>
 
 #include <map>
 #include <nlohmann/json.hpp>
@@ -10,6 +9,7 @@
 #include "ennis.h"
 #include "report/json.h"
 #include "support.h"
+#include "threads.h"
 
 namespace lobelia {
 namespace {
@@ -66,9 +66,8 @@ TEST(Comparison, SameBitsAtAnyThreadCount) {
          {"sg12/progressive/hill", "sg12/least-squares/hill", "sg12h/joint/exact", "sh2/moments/convolution"})
         few.push_back(parse_codec_name(name).value());
     const auto run = [&](std::size_t threads, const std::vector<CodecName>& names, bool convergence) {
-        const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
         options.convergence = convergence;
-        return compare(test::small_sky(), names, options).value();
+        return test::with_threads(threads, [&] { return compare(test::small_sky(), names, options).value(); });
     };
     const auto expect_same = [](const Comparison& a, const Comparison& b) {
         EXPECT_EQ(timeless(a).dump(), timeless(b).dump());
