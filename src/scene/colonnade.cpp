@@ -45,8 +45,8 @@ void add_walls(SceneBuilder& builder, const Materials& m) {
     inner_face({-x, k_floor, k_back}, {2 * x, 0, 0});
     builder.box({-outer_x, 0, outer_z}, {outer_x, k_ceiling, k_back},
                 faces(k_face_back | k_face_left | k_face_right, m.plaster, k_outside));
-    // A ledge above the dado, and a bench before it.
-    builder.box({-x, k_dado, k_back}, {x, k_dado + 0.1f, k_back + 0.06f},
+    // A ledge over the dado's edge, and a bench before it.
+    builder.box({-x, k_dado - 0.02f, k_back}, {x, k_dado + 0.1f, k_back + 0.06f},
                 faces(k_face_top | k_face_bottom | k_face_front, m.stone));
     builder.begin_object("bench");
     builder.box({-3, k_floor + 0.38f, k_back}, {3, k_floor + 0.46f, k_back + 0.5f},
