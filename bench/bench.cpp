@@ -4,10 +4,10 @@
 
 #include "bench/machine.h"
 #include "bench/trace.h"
-#include "lobelia/pack.h"
 #include "lobelia/sky.h"
 #include "lobelia/specular.h"
-#include "report/comparison.h"
+#include "lobelia/storage.h"
+#include "measure/comparison.h"
 
 namespace lobelia::bench {
 namespace {

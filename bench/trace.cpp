@@ -8,12 +8,12 @@
 #include <ctime>
 #include <memory>
 
-#include "baker/bake/gather.h"
-#include "baker/transport/directions.h"
-#include "baker/transport/rays.h"
-#include "baker/transport/surface.h"
+#include "bake/gather/gather.h"
 #include "lobelia/sampling.h"
 #include "scene/embedded.h"
+#include "trace/directions.h"
+#include "trace/rays.h"
+#include "trace/surface.h"
 
 namespace lobelia::bench {
 namespace {

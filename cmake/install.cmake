@@ -3,9 +3,8 @@
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-install(TARGETS lobelia EXPORT lobelia_targets)
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/src/lobelia/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lobelia
-  FILES_MATCHING PATTERN "*.h" PATTERN kernels.h EXCLUDE PATTERN "*-inl.h" EXCLUDE)
+install(TARGETS lobelia_core EXPORT lobelia_targets)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/lobelia DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 if(TARGET lobelia_cli)
   install(TARGETS lobelia_cli)
   # What lobelia unwrap runs; its packages come by npm ci.

@@ -1,6 +1,6 @@
 // Feeds any bytes to the readers of a bake's JSON files. See CMakeLists.txt for how to run it.
-#include "baker/output/manifest.h"
-#include "baker/output/probe_files.h"
+#include "bake/write/manifest.h"
+#include "bake/write/probe_files.h"
 #include "check_loaded.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -14,13 +14,13 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "bake/write/probe_files.h"
 #include "bake_files.h"
-#include "baker/output/probe_files.h"
 #include "gltf_files.h"
 #include "io/write_file.h"
 #include "io/write_image.h"
 #include "io_files.h"
-#include "lobelia/pack.h"
+#include "lobelia/storage.h"
 #include "scene/embedded.h"
 #include "scene/gltf_write.h"
 

@@ -7,12 +7,12 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "baker/bake/study_bake.h"
 #include "cli/bake_input.h"
 #include "cli/common.h"
 #include "cli/verbs.h"
-#include "report/advice.h"
-#include "report/gloss_errors.h"
+#include "measure/advice.h"
+#include "measure/specular_errors.h"
+#include "measure/study/study_bake.h"
 #include "report/study_page.h"
 #include "scene/embedded.h"
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "baker/output/manifest.h"
+#include "bake/write/manifest.h"
 #include "cli/scene_input.h"
 
 namespace lobelia::cli {

@@ -3,10 +3,10 @@
 
 #include <fmt/format.h>
 
-#include "baker/bake/checkpoint.h"
-#include "baker/bake/merge.h"
-#include "baker/output/bake_folder.h"
-#include "baker/output/page_textures.h"
+#include "bake/session/checkpoint.h"
+#include "bake/session/merge.h"
+#include "bake/write/bake_folder.h"
+#include "bake/write/page_textures.h"
 #include "cli/common.h"
 #include "cli/interrupt.h"
 #include "io/counted.h"

@@ -4,11 +4,11 @@
 
 #include <filesystem>
 
-#include "baker/atlas/preflight.h"
-#include "baker/bake/bake.h"
-#include "baker/bake/probe_bake.h"
-#include "baker/finish/finish.h"
-#include "baker/output/bake_folder.h"
+#include "bake/baker.h"
+#include "bake/finish/finish.h"
+#include "bake/probes/probe_bake.h"
+#include "bake/session/preflight.h"
+#include "bake/write/bake_folder.h"
 #include "cli/scene_input.h"
 #include "io/write_image.h"
 

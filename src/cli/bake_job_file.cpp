@@ -1,8 +1,8 @@
 // Jobs as files: what resume, add-samples, rebake and merge go by.
 #include <fmt/format.h>
 
-#include "baker/output/bake_fields.h"
-#include "baker/output/page_files.h"
+#include "bake/write/bake_fields.h"
+#include "bake/write/page_files.h"
 #include "cli/bake_job.h"
 #include "cli/common.h"
 #include "io/write_file.h"

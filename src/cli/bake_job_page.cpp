@@ -1,8 +1,8 @@
 // What a job shows: its lightmap UVs before the bake, and the page after it.
 #include <fmt/format.h>
 
-#include "baker/bake/sites.h"
-#include "baker/output/page_textures.h"
+#include "bake/gather/sites.h"
+#include "bake/write/page_textures.h"
 #include "cli/bake_job.h"
 #include "cli/common.h"
 #include "report/bake_page.h"

@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include "baker/render/render.h"
+#include "bake/render/render.h"
 
 namespace lobelia::cli {
 namespace {

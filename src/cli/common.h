@@ -6,7 +6,7 @@
 #include "io/read_file.h"
 #include "io/read_image.h"
 #include "io/write_file.h"
-#include "report/comparison.h"
+#include "measure/comparison.h"
 #include "report/json.h"
 
 namespace lobelia::cli {

@@ -9,7 +9,7 @@
 #include "cli/common.h"
 #include "cli/verbs.h"
 #include "io/write_file.h"
-#include "report/recipe.h"
+#include "measure/recipe.h"
 
 namespace lobelia::cli {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "cli/common.h"
 #include "cli/verbs.h"
-#include "lobelia/harmonics.h"
+#include "core/math/harmonics.h"
 #include "report/convention_json.h"
 
 namespace lobelia::cli {

@@ -5,7 +5,7 @@
 
 #include <thread>
 
-#include "baker/output/irradiance_files.h"
+#include "bake/write/irradiance_files.h"
 #include "cli/common.h"
 
 namespace lobelia::cli {

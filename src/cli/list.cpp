@@ -4,9 +4,9 @@
 #include <algorithm>
 
 #include "cli/verbs.h"
+#include "core/storage/layout_text.h"
 #include "lobelia/codec.h"
-#include "lobelia/pack.h"
-#include "lobelia/pack/layout_text.h"
+#include "lobelia/storage.h"
 #include "report/bases_page.h"
 
 namespace lobelia::cli {

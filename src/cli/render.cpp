@@ -6,9 +6,9 @@
 #include <cmath>
 #include <filesystem>
 
-#include "baker/output/bake_folder.h"
-#include "baker/output/scene_copy.h"
-#include "baker/render/render.h"
+#include "bake/render/render.h"
+#include "bake/write/bake_folder.h"
+#include "bake/write/scene_copy.h"
 #include "cli/bake_input.h"
 #include "cli/camera.h"
 #include "cli/common.h"

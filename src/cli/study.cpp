@@ -4,12 +4,13 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "baker/bake/study_bake.h"
 #include "cli/common.h"
 #include "cli/scene_input.h"
 #include "cli/verbs.h"
 #include "io/write_file.h"
-#include "report/study_encoders.h"
+#include "measure/study/studies.h"
+#include "measure/study/study_bake.h"
+#include "measure/study/study_encoders.h"
 #include "report/study_page.h"
 
 namespace lobelia::cli {

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "lobelia/colour.h"
+#include "core/math/colour.h"
 #include "lobelia/result.h"
 
 namespace lobelia::io {

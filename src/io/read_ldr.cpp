@@ -23,11 +23,11 @@
 #include <limits>
 #include <memory>
 
+#include "core/math/colour.h"
 #include "io/image_checks.h"
 #include "io/jpeg_check.h"
 #include "io/png_check.h"
 #include "io/read_picture.h"
-#include "lobelia/colour.h"
 
 namespace lobelia {
 

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "core/math/colour.h"
 #include "io/staged_file.h"
-#include "lobelia/colour.h"
 #include "lobelia/image.h"
 #include "lobelia/result.h"
 

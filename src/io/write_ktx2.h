@@ -6,7 +6,7 @@
 #include <string>
 
 #include "io/staged_file.h"
-#include "lobelia/pack/pixel_format.h"
+#include "lobelia/pixel_format.h"
 
 namespace lobelia {
 

@@ -14,10 +14,10 @@
 
 #include <fmt/format.h>
 
+#include "core/math/colour.h"
 #include "io/image_checks.h"
 #include "io/write_file.h"
 #include "io/write_image.h"
-#include "lobelia/colour.h"
 
 namespace lobelia {
 

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "report/bake_layers.h"
-#include "report/page/page.h"
+#include "report/page.h"
 
 namespace lobelia {
 namespace {

@@ -5,10 +5,10 @@
 #include <utility>
 #include <vector>
 
-#include "baker/atlas/preflight.h"
-#include "baker/bake/bake.h"
-#include "baker/output/bake_folder.h"
-#include "baker/render/render.h"
+#include "bake/baker.h"
+#include "bake/render/render.h"
+#include "bake/session/preflight.h"
+#include "bake/write/bake_folder.h"
 #include "lobelia/image.h"
 #include "report/bake_probes.h"
 

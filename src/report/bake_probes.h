@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "baker/bake/probes.h"
+#include "bake/probes/probes.h"
 #include "lobelia/codec.h"
 #include "lobelia/image.h"
 

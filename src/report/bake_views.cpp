@@ -1,7 +1,7 @@
 // What the page of a bake shows of a bake that is in memory.
 #include <algorithm>
 
-#include "baker/bake/page_irradiance.h"
+#include "bake/solve/page_irradiance.h"
 #include "report/bake_page.h"
 
 namespace lobelia {

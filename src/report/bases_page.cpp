@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "lobelia/codec.h"
-#include "lobelia/pack.h"
 #include "lobelia/specular.h"
+#include "lobelia/storage.h"
 
 namespace lobelia {
 namespace {

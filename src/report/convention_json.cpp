@@ -5,8 +5,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "lobelia/harmonics.h"
-#include "report/checked_json.h"
+#include "core/math/harmonics.h"
+#include "io/json.h"
 
 namespace lobelia {
 namespace {

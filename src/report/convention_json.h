@@ -3,7 +3,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "lobelia/conventions/sh_conventions.h"
+#include "lobelia/sh_conventions.h"
 
 namespace lobelia {
 

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
-#include "report/page/page.h"
+#include "report/page.h"
 
 namespace lobelia {
 namespace {

@@ -5,7 +5,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-#include "report/page/picture.h"
+#include "report/picture.h"
 
 namespace lobelia {
 

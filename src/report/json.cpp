@@ -4,7 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "report/checked_json.h"
+#include "io/json.h"
 
 namespace lobelia {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "report/comparison.h"
+#include "measure/comparison.h"
 #include "report/html.h"
 
 namespace lobelia {

@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "io/write_image.h"
-#include "report/page/base64.h"
-#include "report/page/page.h"
+#include "report/base64.h"
+#include "report/page.h"
 
 namespace lobelia {
 

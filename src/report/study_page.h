@@ -5,7 +5,7 @@
 #include <string>
 
 #include "lobelia/result.h"
-#include "lobelia/study.h"
+#include "measure/study/study.h"
 
 namespace lobelia {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "lobelia/result.h"
-#include "scene/scene.h"
+#include "lobelia/scene.h"
 
 namespace lobelia {
 

@@ -1,7 +1,7 @@
 // The colonnade's materials.
 #include <cmath>
 
-#include "lobelia/colour.h"
+#include "core/math/colour.h"
 #include "scene/colonnade_parts.h"
 
 namespace lobelia::colonnade {

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "lobelia/result.h"
-#include "scene/scene.h"
+#include "lobelia/scene.h"
 
 namespace lobelia {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lobelia/colour.h"
+#include "core/math/colour.h"
 
 namespace lobelia::gltf {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <set>
 
-#include "lobelia/colour.h"
+#include "core/math/colour.h"
 #include "scene/gltf_textures.h"
 
 namespace lobelia::gltf {

@@ -1,7 +1,7 @@
 // Normals that a file lacks or spoils, from the triangles around them.
 #pragma once
 
-#include "scene/scene.h"
+#include "lobelia/scene.h"
 
 namespace lobelia::gltf {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "lobelia/result.h"
-#include "scene/scene.h"
+#include "lobelia/scene.h"
 
 namespace lobelia {
 

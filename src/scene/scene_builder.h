@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/scene.h"
+#include "lobelia/scene.h"
 
 namespace lobelia {
 

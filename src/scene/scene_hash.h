@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "scene/scene.h"
+#include "lobelia/scene.h"
 
 namespace lobelia {
 

@@ -1,8 +1,8 @@
 // The procedural sky as a scene's light: an image without the sun's disc, and the sun as a directional light.
 #pragma once
 
+#include "lobelia/scene.h"
 #include "lobelia/sky.h"
-#include "scene/scene.h"
 
 namespace lobelia {
 

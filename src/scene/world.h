@@ -1,7 +1,7 @@
 // A scene as the path tracer and the atlas see it: every object's triangles in world space, in one list.
 #pragma once
 
-#include "scene/scene.h"
+#include "lobelia/scene.h"
 
 namespace lobelia {
 

@@ -1,0 +1,59 @@
+// All of the library, in the order in which light flows through it.
+//
+//   samples -> encoder -> coefficients -> evaluate -> judge
+//
+// Samples are radiances with a direction and a share of the sphere or the hemisphere. An environment image gives one
+// for each of its texels (texel_samples) or at chosen directions (directed_samples); a path tracer makes them as it
+// goes.
+//
+// A basis is a short list of functions of a direction, such as twelve spherical Gaussians ("sg12") or the spherical
+// harmonics up to degree 2 ("sh2"). An encoder takes samples as they arrive (Accumulator: add, merge, solve) and finds
+// the coefficients with which the sum of those functions comes close to the radiance.
+//
+// The coefficients, one colour each, are all that has to be stored. From them the basis gives the radiance in a
+// direction, an evaluator the irradiance at a normal, and a specular evaluator (make_specular) what a glossy surface
+// reflects. Basis, encoder and evaluator make a codec: make_codec ("sg12/least-squares/hill") puts one together,
+// all_codecs() lists those that make sense.
+//
+// How good was it? irradiance_sum is the exact irradiance of an environment, errors() measures against it.
+//
+// Directions are unit vectors that point away from the surface; radiance is in W/(m^2 sr), irradiance in W/m^2 and
+// never divided by pi: docs/conventions.md.
+#pragma once
+
+// The order tells the story.
+// clang-format off
+
+// Numbers, and what functions return that may fail.
+#include "lobelia/math.h"
+#include "lobelia/result.h"
+
+// Samples, and where they come from.
+#include "lobelia/planes.h"
+#include "lobelia/sample.h"
+#include "lobelia/sampling.h"
+#include "lobelia/image.h"
+#include "lobelia/environment.h"
+#include "lobelia/sky.h"
+
+// Bases and their evaluators, and the mathematics under them.
+#include "lobelia/evaluator.h"
+#include "lobelia/basis.h"
+
+// Glossy reflection.
+#include "lobelia/specular.h"
+
+// Encoders.
+#include "lobelia/encoder.h"
+
+// Coefficients in fewer bytes.
+#include "lobelia/pixel_format.h"
+#include "lobelia/texture_layout.h"
+#include "lobelia/storage.h"
+
+// Coefficients as others write them.
+#include "lobelia/sh_conventions.h"
+
+// All of these by name, and how good they were.
+#include "lobelia/codec.h"
+#include "lobelia/metrics.h"

@@ -1,0 +1,55 @@
+// Storages: ways to keep coefficients in fewer bytes, with what each costs in accuracy.
+#pragma once
+
+#include "lobelia/encoder.h"
+#include "lobelia/result.h"
+#include "lobelia/texture_layout.h"
+
+namespace lobelia {
+
+/// What a storage may count on in a codec's coefficients.
+struct CoefficientTraits {
+    std::size_t count = 0;
+    bool non_negative = false;       ///< every coefficient is >= 0
+    bool colours = true;             ///< each is a colour, whose chroma varies less than its luma
+    std::vector<float> lead_bounds;  ///< |c_i| <= lead_bounds[i] c_0 for light that is >= 0; empty where nothing bounds
+};
+
+[[nodiscard]] CoefficientTraits coefficient_traits(const Encoder& encoder);
+/// Of the encoders that a basis is listed with, those of a non-negative one where it has any: most storages suit it.
+[[nodiscard]] CoefficientTraits coefficient_traits(const std::shared_ptr<const Basis>& basis);
+
+/// A way to store coefficients; all of it is data.
+struct Storage {
+    /// What coefficients must be for it.
+    enum class Suits { any, non_negative, colours, bounded_by_lead };
+    std::string_view name, description;
+    Suits suits = Suits::any;
+    ErrorBound bound;  ///< of the coefficients that are read back
+    TextureLayout (*layout)(const CoefficientTraits&) = nullptr;
+};
+
+/// THE list (pack/storages.cpp).
+[[nodiscard]] std::span<const Storage> storages();
+[[nodiscard]] bool suits(const Storage& storage, const CoefficientTraits& traits);
+/// Whether texels beside each other have bits in common, so that a single one tells nothing of the error.
+[[nodiscard]] bool shares_texels(const Storage& storage);
+/// By name; the error of an unknown one lists the nearest.
+[[nodiscard]] Result<const Storage*> find_storage(std::string_view name);
+/// By names, each once; the error of one that does not suit says what it wants and which do.
+[[nodiscard]] Result<std::vector<const Storage*>> find_storages(std::span<const std::string> names,
+                                                                const CoefficientTraits& traits);
+/// What a bake is stored in where nothing is asked for: plain halves, and ratios in bytes where they suit.
+[[nodiscard]] std::vector<const Storage*> default_storages(const CoefficientTraits& traits);
+
+/// What `storage` may be off by at most, by its bound, for each value of `coefficients`, into planes of the same
+/// shape; HUGE_VALF where a value is outside of what it can hold: below 0 for formats without a sign, or beyond its
+/// lead's bound.
+void allowed_error(const Storage& storage, const CoefficientTraits& traits, const CoefficientPlanes& coefficients,
+                   const MutableCoefficientPlanes& out);
+
+/// The coefficients of one texel or probe as they come back from storage.
+[[nodiscard]] std::vector<Rgb> stored_and_read(const Storage& storage, const CoefficientTraits& traits,
+                                               std::span<const Rgb> c);
+
+}  // namespace lobelia

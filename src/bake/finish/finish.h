@@ -1,0 +1,61 @@
+// The finishing steps, on pages of coefficients: seams, denoising, dilation. Each works in coefficient space, channel
+// by channel, and knows no basis. Order: denoise, seams, dilate. Results do not depend on the number of threads.
+#pragma once
+
+#include "bake/place/atlas.h"
+#include "bake/place/texels.h"
+#include "bake/solve/pages.h"
+#include "lobelia/basis.h"
+
+namespace lobelia {
+
+/// Positions and smooth normals of the covered texels, page by page, row by row; what guides the denoiser.
+struct Guides {
+    std::vector<std::vector<Vec3>> position, normal;
+};
+/// Positions and normals as make_texels gives them.
+[[nodiscard]] Guides make_guides(const Atlas& atlas, const TexelMap& map);
+
+/// Makes the two sides of each seam agree: where an edge of a triangle, or the part of it at which a shorter one lies,
+/// lies in two places (of one object or of two that touch), the bilinearly filtered values along it, as they are read
+/// after `dilate`. Least squares over the texels near seams: |difference along the seam|^2 + weight |change|^2, one
+/// sparse system (Eigen) for all channels of all pages. Positions within `tolerance` [m] and normals within about 10
+/// degrees count as the same edge.
+struct SeamOptions {
+    float weight = 0.05f;
+    float tolerance = 1e-4f;
+    float least_validity = 0.5f;  ///< as for `dilate`, which will replace texels below it
+};
+struct SeamReport {
+    std::size_t edges = 0;         ///< pairs, of edges or of parts, that were joined
+    double before = 0, after = 0;  ///< RMS difference of the irradiance channels along them
+};
+SeamReport close_seams(std::span<Page> pages, const PageLayout& layout, const Atlas& atlas,
+                       const SeamOptions& options = {});
+
+/// Smooths noise within each chart, never across charts: an edge-avoiding filter guided by position and normal and
+/// scaled by the standard error that the bake measured. Coefficients are divided by the texel's mean radiance (sum of
+/// c_i times `integrals`, over the domain's solid angle) before filtering and multiplied by its filtered value after,
+/// so that directions are not smeared by brightness (for SH: L1 / L0).
+struct DenoiseOptions {
+    int passes = 4;               ///< a-trous levels, 1 to 6
+    float strength = 2;           ///< how many standard errors of a difference count as noise
+    float least_validity = 0.5f;  ///< texels below it are neither read nor changed
+};
+void denoise(std::span<Page> pages, const PageLayout& layout, const Guides& guides, std::span<const double> integrals,
+             double domain_solid_angle, const DenoiseOptions& options = {});
+
+/// From pages of what `basis` is fitted from to pages of its own coefficients, texel by texel, empty ones, too. The
+/// last step.
+[[nodiscard]] std::vector<Page> fit_pages(std::span<const Page> pages, const FittedBasis& basis);
+
+/// Fills texels where nothing was baked, or whose validity is below `least_validity`, from their nearest valid
+/// neighbours within `radius` texels, of the same chart first; so that filtering and mips read no rubbish. `chart`
+/// stays as it was.
+struct DilateOptions {
+    std::size_t radius = 4;
+    float least_validity = 0.5f;
+};
+void dilate(std::span<Page> pages, const DilateOptions& options = {});
+
+}  // namespace lobelia

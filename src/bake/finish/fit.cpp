@@ -1,0 +1,48 @@
+// From coefficients that are linear in the light to those of a fitted basis.
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <cassert>
+
+#include "bake/finish/finish.h"
+
+namespace lobelia {
+namespace {
+
+Page fitted_page(const Page& from, const FittedBasis& basis) {
+    const PageLayout source{basis.accumulated()->size()}, target{basis.size()};
+    assert(from.planes.size() == source.channels());
+    Page to(from.width, from.height, target.channels());
+    to.chart = from.chart;
+    to.validity = from.validity;
+    // What is not a coefficient stays.
+    for (std::size_t k = 0; k < 4; ++k) to.planes[target.irradiance(0) + k] = from.planes[source.irradiance(0) + k];
+    constexpr std::size_t k_grain = 256;
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, from.size(), k_grain), [&](const auto& range) {
+        std::vector<Rgb> accumulated(source.coefficients), c(target.coefficients);
+        for (std::size_t pixel = range.begin(); pixel < range.end(); ++pixel) {
+            const auto plane = [&](std::size_t i, std::size_t k) {
+                return from.planes[source.coefficient(i, k)][pixel];
+            };
+            for (std::size_t i = 0; i < accumulated.size(); ++i)
+                accumulated[i] = {plane(i, 0), plane(i, 1), plane(i, 2)};
+            basis.fit(accumulated, c);
+            for (std::size_t i = 0; i < c.size(); ++i) {
+                to.planes[target.coefficient(i, 0)][pixel] = c[i].r;
+                to.planes[target.coefficient(i, 1)][pixel] = c[i].g;
+                to.planes[target.coefficient(i, 2)][pixel] = c[i].b;
+            }
+        }
+    });
+    return to;
+}
+
+}  // namespace
+
+std::vector<Page> fit_pages(std::span<const Page> pages, const FittedBasis& basis) {
+    std::vector<Page> fitted;
+    for (const Page& page : pages) fitted.push_back(fitted_page(page, basis));
+    return fitted;
+}
+
+}  // namespace lobelia

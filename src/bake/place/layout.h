@@ -1,0 +1,19 @@
+// Where objects go on pages: their sizes, and their rectangles packed.
+#pragma once
+
+#include "bake/place/atlas.h"
+
+namespace lobelia {
+
+/// Placements of each object, and how many pages they take.
+struct AtlasLayout {
+    std::vector<AtlasPlacement> placements;
+    std::size_t pages = 0;
+};
+
+/// The whole page for all.
+[[nodiscard]] AtlasLayout shared_layout(const World& world, const AtlasOptions& options);
+/// A rectangle for each. An error names the object that does not fit a page.
+[[nodiscard]] Result<AtlasLayout> packed_layout(const World& world, const AtlasOptions& options);
+
+}  // namespace lobelia

@@ -1,0 +1,30 @@
+// Edges cut where other edges end upon them: T-junctions become edges that lie at the same place.
+#pragma once
+
+#include <span>
+
+#include "bake/place/edges.h"
+
+namespace lobelia {
+
+/// A part of edge `side` of a triangle, between the welded vertices `low` and `high`; `at_low` and `at_high` say where
+/// these lie along the edge, 0 at corner `side` and 1 at the next.
+struct EdgePiece {
+    std::uint32_t low = 0, high = 0;
+    std::uint32_t triangle = 0;
+    std::uint8_t side = 0;
+    float at_low = 0, at_high = 1;
+    [[nodiscard]] bool same_place(const EdgePiece& other) const { return low == other.low && high == other.high; }
+};
+
+/// The whole edge as one piece.
+[[nodiscard]] EdgePiece whole_piece(const World& world, const std::vector<std::uint32_t>& welded,
+                                    const WorldEdge& edge);
+
+/// Cuts whole pieces at each end of another one that lies within `tolerance` [m] of their inside. The order is that of
+/// sorted_edges. Time and memory are linear in the number of pieces for meshes as people make them, and bounded for
+/// any: what lies in the way of thousands stays uncut.
+[[nodiscard]] std::vector<EdgePiece> split_edges(const World& world, std::span<const EdgePiece> pieces,
+                                                 float tolerance);
+
+}  // namespace lobelia

@@ -1,0 +1,124 @@
+// Points, normals and objects of texels.
+#include "bake/place/texels.h"
+
+#include <algorithm>
+#include <cassert>
+
+#include "bake/place/push_out.h"
+#include "bake/place/texel_points.h"
+
+namespace lobelia {
+namespace {
+
+/// Where samples start within a texel: a square grid, turned by atan(1/2), so that no two share a row or a column.
+constexpr std::array<PagePoint, k_most_positions> k_pattern = {PagePoint{0.375, 0.125}, PagePoint{0.875, 0.375},
+                                                               PagePoint{0.125, 0.625}, PagePoint{0.625, 0.875}};
+constexpr std::uint32_t k_nobody = 0xffffffff;
+
+/// Which triangle of the texel's chart holds each point of its pattern.
+using Holders = std::array<std::uint32_t, k_most_positions>;
+
+/// Makes the texels [begin, end) of the map, which lie on one tile.
+class TileTexels {
+  public:
+    TileTexels(const Atlas& atlas, const TexelMap& map, const PathTracer& tracer)
+        : atlas_(atlas), map_(map), tracer_(tracer) {}
+
+    void make(std::size_t begin, Switch push, std::span<Texel> out) {
+        find_holders(begin, begin + out.size());
+        reach_.resize(out.size());
+        for (std::size_t i = 0; i < out.size(); ++i) out[i] = texel(begin + i, holders_[i], reach_[i]);
+        if (push == Switch::on) push_out(tracer_, reach_, out);
+    }
+
+  private:
+    void find_holders(std::size_t begin, std::size_t end);
+    [[nodiscard]] Texel texel(std::size_t i, const Holders& holders, TexelReach& reach) const;
+    void add_position(std::size_t t, PagePoint p, Texel& texel, TexelReach& reach) const;
+
+    const Atlas& atlas_;
+    const TexelMap& map_;
+    const PathTracer& tracer_;
+    std::array<std::uint32_t, k_tile * k_tile> place_;  ///< in holders_ of each of the tile's texels
+    std::vector<Holders> holders_;
+    std::vector<TexelReach> reach_;
+};
+
+void TileTexels::find_holders(std::size_t begin, std::size_t end) {
+    const std::size_t tile = atlas_.tile_of(map_.texels[begin]);
+    const TexelBox box = atlas_.box_of_tile(tile);
+    place_.fill(k_nobody);
+    holders_.assign(end - begin, {k_nobody, k_nobody, k_nobody, k_nobody});
+    for (std::size_t i = begin; i < end; ++i)
+        place_[(map_.texels[i].y - box.y0) * k_tile + (map_.texels[i].x - box.x0)] =
+            static_cast<std::uint32_t>(i - begin);
+
+    // The first triangle of the owner's chart that holds a point has it.
+    const auto& charts = atlas_.chart_of_triangle();
+    for (const std::uint32_t t : atlas_.triangles_of_tile(tile)) {
+        const PageTriangle triangle(atlas_.texel_triangle(t));
+        const TexelBox part = atlas_.box_of(t, triangle, box);
+        for (int y = part.y0; y < part.y1; ++y)
+            for (int x = part.x0; x < part.x1; ++x) {
+                const std::uint32_t place = place_[static_cast<std::size_t>(y - box.y0) * k_tile + (x - box.x0)];
+                if (place == k_nobody || charts[map_.triangle[begin + place]] != charts[t]) continue;
+                for (std::size_t k = 0; k < k_most_positions; ++k)
+                    if (std::uint32_t& holder = holders_[place][k];
+                        holder == k_nobody && triangle.contains({x + k_pattern[k].x, y + k_pattern[k].y}))
+                        holder = t;
+            }
+    }
+}
+
+void TileTexels::add_position(std::size_t t, PagePoint p, Texel& texel, TexelReach& reach) const {
+    const World& world = atlas_.world();
+    const Vec3 on_surface = position_at(world, t, PageTriangle(atlas_.texel_triangle(t)).weights(p));
+    const Vec3 face = world.face_normal(t), normal = dot(face, face) > 0 ? face : texel.face_normal;
+    texel.positions[texel.position_count] = on_surface + normal * tracer_.lift(on_surface);
+    reach.normals[texel.position_count] = normal;
+    ++texel.position_count;
+}
+
+Texel TileTexels::texel(std::size_t i, const Holders& holders, TexelReach& reach) const {
+    const World& world = atlas_.world();
+    const std::uint32_t t = map_.triangle[i];
+    const int x = static_cast<int>(map_.texels[i].x), y = static_cast<int>(map_.texels[i].y);
+
+    // What it is: the surface at its centre, or at the covered point nearest to that.
+    const auto [position, normal] = surface_of(atlas_, map_, i);
+    Texel result;
+    result.position = position;
+    result.normal = normal;
+    result.face_normal = world.face_normal(t);
+    if (dot(result.face_normal, result.face_normal) == 0) result.face_normal = result.normal;
+    result.object = world.object[t];
+    result.chart = atlas_.chart_of_triangle()[t];
+
+    // Where its samples start: the points of the pattern that its chart covers, or else the middle of what is covered.
+    reach.width = texel_width(atlas_, t);
+    for (std::size_t k = 0; k < k_most_positions; ++k)
+        if (holders[k] != k_nobody) add_position(holders[k], {x + k_pattern[k].x, y + k_pattern[k].y}, result, reach);
+    if (result.position_count == 0) {
+        const PageTriangle triangle(atlas_.texel_triangle(t));
+        const PagePoint centre{x + 0.5, y + 0.5};
+        add_position(t, triangle.contains(centre) ? centre : triangle.part_in(x, y).centroid(), result, reach);
+    }
+    return result;
+}
+
+}  // namespace
+
+void make_texels(const Atlas& atlas, const TexelMap& map, std::size_t begin, std::size_t end, const PathTracer& tracer,
+                 Switch push_out, std::vector<Texel>& out) {
+    assert(begin <= end && end <= map.texels.size());
+    out.resize(end - begin);
+    TileTexels tile(atlas, map, tracer);
+    for (std::size_t i = begin; i < end;) {
+        const auto next = std::upper_bound(map.first_of_tile.begin(), map.first_of_tile.end(), i);
+        const std::size_t count = std::min<std::size_t>(*next, end) - i;
+        tile.make(i, push_out, std::span(out).subspan(i - begin, count));
+        i += count;
+    }
+}
+
+}  // namespace lobelia

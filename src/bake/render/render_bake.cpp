@@ -1,0 +1,177 @@
+// What a bake makes of a scene, from a camera.
+#include <cassert>
+#include <cmath>
+
+#include "bake/place/texels.h"
+#include "bake/render/render.h"
+#include "bake/render/render_tiles.h"
+#include "bake/solve/coefficient_blocks.h"
+#include "trace/directions.h"
+
+namespace lobelia {
+namespace {
+
+/// Pairs of the Sobol sequences; 0 is the place within the pixel.
+enum Dimension : std::uint32_t { k_base_direction = 1, k_layer_direction = 2 };
+
+/// Four texels of a page about a point, and their weights.
+struct Taps {
+    const Page* page = nullptr;
+    std::array<std::size_t, 4> texel;
+    std::array<float, 4> weight;
+
+    [[nodiscard]] float value(std::size_t plane) const {
+        const std::vector<float>& p = page->planes[plane];
+        float sum = 0;
+        for (std::size_t k = 0; k < 4; ++k) sum += weight[k] * p[texel[k]];
+        return sum;
+    }
+};
+
+/// The texels about `p` [texels], held at the page's edges.
+Taps taps_at(const Page& page, Vec2 p) {
+    const float right = static_cast<float>(page.width - 1), bottom = static_cast<float>(page.height - 1);
+    const float x = std::clamp(p.x - 0.5f, 0.0f, right), y = std::clamp(p.y - 0.5f, 0.0f, bottom);
+    const auto x0 = static_cast<std::size_t>(x), y0 = static_cast<std::size_t>(y);
+    const std::size_t x1 = std::min(x0 + 1, page.width - 1), y1 = std::min(y0 + 1, page.height - 1);
+    const float fx = x - static_cast<float>(x0), fy = y - static_cast<float>(y0);
+    return {&page,
+            {y0 * page.width + x0, y0 * page.width + x1, y1 * page.width + x0, y1 * page.width + x1},
+            {(1 - fx) * (1 - fy), fx * (1 - fy), (1 - fx) * fy, fx * fy}};
+}
+
+/// A place on a baked surface, with all that shading asks.
+struct BakedPoint {
+    std::uint32_t of_ray = 0;
+    Taps taps;
+    Vec3 normal;  ///< unit, in the world
+    Rgb emission;
+    Rgb base;       ///< the diffuse part of L is this times E / pi
+    Rgb layer;      ///< the glossy part is this times L from `mirrored`
+    Vec3 mirrored;  ///< in the frame about the normal
+};
+
+class BakeWorker {
+  public:
+    BakeWorker(const PathTracer& tracer, const CameraView& view, const BakedLight& light)
+        : tracer_(&tracer), view_(&view), light_(&light), paths_(tracer) {
+        if (light.codec == nullptr) return;
+        irradiance_.emplace(light.codec->evaluator(), light.layout.coefficients);
+        radiance_.emplace(light.codec->basis(), light.codec->evaluator().negative());
+    }
+
+    void shade(std::span<const PathStart> rays, std::span<const std::uint32_t> of_ray, RenderTile& tile) {
+        sights_.resize(rays.size());
+        view_->look(rays, sights_);
+        paths_.add(sights_, of_ray, tile);
+        points_.clear();
+        for (std::size_t i = 0; i < sights_.size(); ++i) {
+            if (sights_[i].kind == Sight::Kind::unlit) tile.add(of_ray[i], view_->unlit_color(sights_[i].hit));
+            if (sights_[i].kind == Sight::Kind::baked) points_.push_back(point(sights_[i], of_ray[i]));
+        }
+        if (!points_.empty()) add_points(tile);
+    }
+
+  private:
+    [[nodiscard]] Taps taps(const PathTracer::Hit& hit) const;
+    [[nodiscard]] BakedPoint point(const Sight& sight, std::uint32_t of_ray) const;
+    void read(MutableColourView irradiance, MutableColourView mirrored);
+    void add_points(RenderTile& tile);
+
+    const PathTracer* tracer_;
+    const CameraView* view_;
+    const BakedLight* light_;
+    PathShader paths_;
+    std::optional<IrradianceReader> irradiance_;
+    std::optional<RadianceReader> radiance_;
+    std::vector<Sight> sights_;
+    std::vector<BakedPoint> points_;
+    std::vector<float> block_;
+};
+
+Taps BakeWorker::taps(const PathTracer::Hit& hit) const {
+    const World& world = tracer_->world();
+    const auto& [a, b, c] = world.triangles[hit.triangle];
+    const Vec2 uv =
+        world.lightmap_uv[a] * (1 - hit.u - hit.v) + world.lightmap_uv[b] * hit.u + world.lightmap_uv[c] * hit.v;
+    const AtlasPlacement& at = light_->placements[world.object[hit.triangle]];
+    return taps_at(light_->pages[at.page], {at.scale.x * uv.x + at.offset.x, at.scale.y * uv.y + at.offset.y});
+}
+
+BakedPoint BakeWorker::point(const Sight& sight, std::uint32_t of_ray) const {
+    const auto& [distance, triangle, u, v, back] = sight.hit;
+    const SurfacePoint at = view_->surfaces().point(triangle, u, v, sight.start.direction);
+    BakedPoint p;
+    p.of_ray = of_ray;
+    p.taps = taps(sight.hit);
+    p.normal = at.normal;
+    p.emission = view_->surfaces().emission(triangle, u, v);
+
+    // Choose a direction for the base, which says how much the layer keeps from it, and one for the layer.
+    const Vec3 wo = Axes(tangent_from_world(at.normal)).local(sight.start.direction * -1.0f);
+    const std::uint32_t seed = tracer_->options().seed;
+    const auto random = [&](std::uint32_t number) { return pair(sight.start.key, sight.start.sample, number, seed); };
+    p.base = base_albedo(at.reflectance, wo, cosine_direction(random(k_base_direction)));
+    if (!at.reflectance.has_layer) return p;
+    Reflectance layer = at.reflectance;
+    layer.diffuse = {};
+    const Scattered mirrored = scatter(layer, wo, random(k_layer_direction), 0);
+    if (mirrored.pdf > 0) {
+        p.layer = mirrored.weight;
+        p.mirrored = mirrored.wi;
+    }
+    return p;
+}
+
+/// Irradiance and the radiance from the mirrored direction, at each point.
+void BakeWorker::read(MutableColourView irradiance, MutableColourView mirrored) {
+    const std::size_t first = light_->layout.irradiance(0);
+    if (!irradiance_) {
+        for (std::size_t j = 0; j < points_.size(); ++j) {
+            const Taps& t = points_[j].taps;
+            const Rgb e{t.value(first), t.value(first + 1), t.value(first + 2)};
+            set_entry(irradiance, j, e);
+            set_entry(mirrored, j, e * k_over_pi);
+        }
+        return;
+    }
+    block_.resize(block_floats(light_->layout.coefficients));
+    for (std::size_t plane = 0; plane < 3 * light_->layout.coefficients; ++plane)
+        for (std::size_t j = 0; j < points_.size(); ++j)
+            block_[plane * k_block_size + j] = points_[j].taps.value(plane);
+    Directions normals(points_.size()), directions(points_.size());
+    for (std::size_t j = 0; j < points_.size(); ++j) {
+        const BakedPoint& p = points_[j];
+        const Vec3 wi = p.mirrored == Vec3{} ? Vec3{0, 0, 1} : p.mirrored;
+        set_entry(normals.view(), j, light_->in_tangent_frame ? Vec3{0, 0, 1} : p.normal);
+        set_entry(directions.view(), j, light_->in_tangent_frame ? wi : Axes(tangent_from_world(p.normal)).world(wi));
+    }
+    irradiance_->read(block_, normals, irradiance);
+    radiance_->read(block_, directions, mirrored);
+}
+
+void BakeWorker::add_points(RenderTile& tile) {
+    Colours irradiance(points_.size()), mirrored(points_.size());
+    read(irradiance, mirrored);
+    for (std::size_t j = 0; j < points_.size(); ++j) {
+        const BakedPoint& p = points_[j];
+        const Rgb diffuse = product(p.base, colour_at(irradiance.view(), j)) * k_over_pi;
+        tile.add(p.of_ray, p.emission + diffuse + product(p.layer, colour_at(mirrored.view(), j)));
+    }
+}
+
+}  // namespace
+
+std::optional<Image> render_bake(const PathTracer& tracer, const BakedLight& light, const Camera& camera,
+                                 const RenderOptions& options) {
+    assert(options.width > 0 && options.height > 0 && options.samples > 0);
+    assert(light.placements.size() == tracer.scene().objects.size());
+    const CameraRays rays(camera, options.width, options.height, tracer.options().seed);
+    std::vector<std::uint8_t> baked;
+    for (const AtlasPlacement& placement : light.placements) baked.push_back(placement.baked ? 1 : 0);
+    const CameraView view(tracer, std::move(baked));
+    static_assert(k_rays_at_once <= k_block_size);
+    return render_tiles(rays, options, [&] { return std::make_unique<BakeWorker>(tracer, view, light); });
+}
+
+}  // namespace lobelia

@@ -1,0 +1,92 @@
+// Files of states. All numbers are little-endian, as in memory on every machine that this runs on.
+#include "bake/session/checkpoint.h"
+
+#include <fmt/format.h>
+#include <zlib.h>
+
+#include <bit>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+
+#include "io/write_file.h"
+
+namespace lobelia {
+namespace {
+
+static_assert(std::endian::native == std::endian::little);
+
+constexpr std::array<char, 8> k_magic{'L', 'O', 'B', 'S', 'T', 'A', 'T', 'E'};
+constexpr std::uint32_t k_version = 1;
+
+/// The beginning of the file.
+struct FileHeader {
+    std::array<char, 8> magic = k_magic;
+    std::uint32_t version = k_version;
+    std::uint32_t checksum = 0;  ///< CRC-32 of the region header and the states
+    RegionHeader region;
+};
+constexpr std::size_t k_header_floats = 64;
+static_assert(sizeof(FileHeader) <= k_header_floats * sizeof(float));
+
+std::uint32_t checksum(const RegionHeader& header, std::span<const float> states) {
+    uLong crc = crc32_z(0, reinterpret_cast<const Bytef*>(&header), sizeof header);
+    crc = crc32_z(crc, reinterpret_cast<const Bytef*>(states.data()), states.size_bytes());
+    return static_cast<std::uint32_t>(crc);
+}
+
+}  // namespace
+
+RegionStates::RegionStates(std::size_t sites, std::size_t floats_each)
+    : storage_(k_header_floats + sites * floats_each) {
+    header.sites = sites;
+    header.floats = static_cast<std::uint32_t>(floats_each);
+}
+
+std::span<float> RegionStates::states() { return std::span(storage_).subspan(k_header_floats); }
+std::span<const float> RegionStates::states() const { return std::span(storage_).subspan(k_header_floats); }
+
+Status RegionStates::write(const std::filesystem::path& path) {
+    FileHeader file;
+    file.region = header;
+    file.checksum = checksum(header, states());
+    std::memcpy(storage_.data(), &file, sizeof file);
+    return write_file_atomically(path, std::as_bytes(std::span(storage_)));
+}
+
+Result<RegionStates> RegionStates::read(const std::filesystem::path& path) {
+    const auto bad = [&](std::string_view what) { return Error{fmt::format("{}: {}", path.string(), what)}; };
+    std::ifstream file(path, std::ios::binary);
+    if (!file) return bad(fmt::format("cannot be opened: {}", std::generic_category().message(errno)));
+
+    // The header first: nothing is allocated for a file that is not one of ours.
+    FileHeader start;
+    std::array<char, k_header_floats * sizeof(float)> begin{};
+    if (!file.read(begin.data(), begin.size())) return bad("this checkpoint is cut off");
+    std::memcpy(&start, begin.data(), sizeof start);
+    if (start.magic != k_magic) return bad("this is no checkpoint of Lobelia's");
+    if (start.version != k_version)
+        return bad(
+            fmt::format("this checkpoint has version {}; this program reads version {}", start.version, k_version));
+    std::error_code code;
+    const std::uintmax_t size = std::filesystem::file_size(path, code);
+    constexpr std::uint64_t most_floats = std::uint64_t{1} << 40;
+    const RegionHeader& region = start.region;
+    if (region.floats == 0 || region.sites > most_floats / region.floats ||
+        size != sizeof(float) * (k_header_floats + region.sites * region.floats))
+        return bad("this checkpoint is cut off or damaged: its size is not what its header says");
+
+    RegionStates result(region.sites, region.floats);
+    result.header = region;
+    const auto states = result.states();
+    if (!file.read(reinterpret_cast<char*>(states.data()), static_cast<std::streamsize>(states.size_bytes())))
+        return bad("this checkpoint is cut off");
+    if (checksum(region, states) != start.checksum) return bad("this checkpoint is damaged: its checksum is wrong");
+    return result;
+}
+
+std::filesystem::path region_file(const std::filesystem::path& folder, std::size_t region) {
+    return folder / fmt::format("region-{:04}.state", region);
+}
+
+}  // namespace lobelia

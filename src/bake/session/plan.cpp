@@ -1,0 +1,68 @@
+// Shards and regions.
+#include "bake/session/plan.h"
+
+#include <fmt/format.h>
+
+namespace lobelia {
+
+std::vector<std::uint32_t> texels_of(const TexelMap& map, std::span<const std::uint32_t> tiles) {
+    std::vector<std::uint32_t> result;
+    for (const std::uint32_t tile : tiles)
+        for (std::uint32_t i = map.first_of_tile[tile]; i < map.first_of_tile[tile + 1]; ++i) result.push_back(i);
+    return result;
+}
+
+std::uint64_t hash_of_texels(std::span<const std::uint32_t> texels) {
+    // FNV-1a over whole words.
+    std::uint64_t hash = 0xcbf29ce484222325;
+    for (const std::uint32_t texel : texels) hash = (hash ^ texel) * 0x100000001b3;
+    return hash;
+}
+
+std::vector<std::uint32_t> tiles_of(const TexelMap& map, const Shard& shard) {
+    const auto tiles = static_cast<std::uint32_t>(map.first_of_tile.empty() ? 0 : map.first_of_tile.size() - 1);
+    const bool deal = shard.by == Shard::By::tiles;
+    std::vector<std::uint32_t> result;
+    for (std::uint32_t tile = deal ? shard.index : 0; tile < tiles; tile += deal ? shard.count : 1)
+        result.push_back(tile);
+    return result;
+}
+
+Result<BakePlan> make_plan(const TexelMap& map, const BakeOptions& options, std::size_t bytes_per_texel,
+                           std::size_t bytes_always) {
+    BakePlan plan;
+    const std::uint32_t passes = (options.samples + options.samples_per_pass - 1) / options.samples_per_pass;
+    const Shard& shard = options.shard;
+    plan.end_pass = passes;
+    if (shard.by == Shard::By::samples) {
+        plan.first_pass = static_cast<std::uint32_t>(std::uint64_t{passes} * shard.index / shard.count);
+        plan.end_pass = static_cast<std::uint32_t>(std::uint64_t{passes} * (shard.index + 1) / shard.count);
+    }
+
+    plan.tiles = tiles_of(map, shard);
+
+    // Fill one region after another up to the memory that is left.
+    constexpr std::size_t most_in_tile = k_tile * k_tile;
+    if (options.memory < bytes_always + most_in_tile * bytes_per_texel)
+        return Error{
+            fmt::format("--memory: {} MiB do not hold this bake; it takes {} MiB for the scene and its pages and "
+                        "{} bytes for each of {} texels, of which a part may wait",
+                        options.memory >> 20, (bytes_always >> 20) + 1, bytes_per_texel, map.texels.size())};
+    const std::size_t most = (options.memory - bytes_always) / bytes_per_texel;
+    std::size_t inside = 0;
+    for (std::uint32_t place = 0; place < plan.tiles.size(); ++place) {
+        const std::uint32_t tile = plan.tiles[place];
+        const std::size_t size = map.first_of_tile[tile + 1] - map.first_of_tile[tile];
+        if (plan.regions.empty() || inside + size > most) {
+            plan.regions.push_back({place, place});
+            inside = 0;
+        }
+        inside += size;
+        plan.regions.back().end = place + 1;
+    }
+    // A shard without tiles says so in a region without any.
+    if (plan.regions.empty()) plan.regions.push_back({});
+    return plan;
+}
+
+}  // namespace lobelia

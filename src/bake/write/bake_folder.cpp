@@ -1,0 +1,99 @@
+// A bake as a folder, written together and read again.
+#include "bake/write/bake_folder.h"
+
+#include <fmt/format.h>
+
+#include "bake/write/bake_fields.h"
+#include "bake/write/files_together.h"
+#include "bake/write/page_files.h"
+#include "bake/write/page_textures.h"
+#include "bake/write/probe_files.h"
+#include "bake/write/scene_copy.h"
+
+namespace lobelia {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* k_scene_name = "scene.glb";
+constexpr const char* k_environment_name = "environment.exr";
+constexpr const char* k_probes_name = "probes.json";
+constexpr const char* k_probe_coefficients_name = "probes.bin";
+
+Status add_pages(FilesTogether& files, const Bake& bake, const PageTextures& textures, Manifest& manifest) {
+    const std::string origin = fmt::format("{}, {} frame", manifest.options.codec,
+                                           k_frame_names[static_cast<std::size_t>(manifest.options.frame)]);
+    manifest.pages.clear();
+    for (std::size_t i = 0; i < bake.pages.size(); ++i) {
+        BakedPage& baked = manifest.pages.emplace_back(BakedPage{fmt::format("page-{}.exr", i), {}, {}});
+        auto status = files.add(baked.file, [&](StagedFile& file) {
+            return write_page(file, bake.pages[i], bake.layout(), bake.normals[i], {manifest.precision});
+        });
+        if (status) status = textures.add(files, bake.pages[i], origin, baked);
+        if (!status) return status;
+    }
+    return Done{};
+}
+
+Status add_probes(FilesTogether& files, const Bake& bake, Manifest& manifest) {
+    manifest.probes.reset();
+    if (!bake.probes) return Done{};
+    manifest.probes = k_probes_name;
+    auto status = files.add(k_probe_coefficients_name,
+                            [&](StagedFile& file) { return write_probe_coefficients(file, *bake.probes); });
+    if (status) status = files.add_text(k_probes_name, to_json_text(*bake.probes, k_probe_coefficients_name));
+    return status;
+}
+
+Status add_scene(FilesTogether& files, const Scene& scene, Manifest& manifest) {
+    // A bake is worth more than the copy: where glTF cannot hold the scene, say so and go on.
+    manifest.scene.reset();
+    const auto copy = encode_scene_copy(scene, manifest);
+    if (!copy) {
+        manifest.warnings.push_back("there is no copy of the scene: " + copy.error().message);
+    } else {
+        manifest.scene = k_scene_name;
+        if (auto status = files.add_text(k_scene_name, *copy); !status) return status;
+    }
+    manifest.environment.reset();
+    if (!scene.environment) return Done{};
+    manifest.environment = k_environment_name;
+    return files.add(k_environment_name, [&](StagedFile& file) { return write_exr(file, *scene.environment); });
+}
+
+}  // namespace
+
+Status write_bake(const fs::path& folder, const Bake& bake, const WriteBakeOptions& options) {
+    assert(bake.pages.size() == bake.normals.size());
+    const auto textures = PageTextures::make(bake.manifest.options.codec, options.storages);
+    if (!textures) return textures.error();
+    auto files = FilesTogether::in(folder);
+    if (!files) return files.error();
+    Manifest manifest = bake.manifest;
+    auto status = add_pages(*files, bake, *textures, manifest);
+    if (status) status = add_probes(*files, bake, manifest);
+    if (status && options.scene != nullptr) status = add_scene(*files, *options.scene, manifest);
+    if (status) status = files->add_text(k_manifest_name, to_json_text(manifest));
+    return status ? files->commit() : status;
+}
+
+Result<Bake> read_bake(const fs::path& path) {
+    auto manifest = read_manifest(path);
+    if (!manifest) return manifest.error();
+    const fs::path folder = bake_folder(path);
+    Bake bake{*std::move(manifest), {}, {}, {}};
+    for (const auto& baked : bake.manifest.pages) {
+        auto page = read_page(folder / baked.file, bake.layout(), bake.manifest.width, bake.manifest.height);
+        if (!page) return page.error();
+        bake.pages.push_back(std::move(page->page));
+        bake.normals.push_back(std::move(page->normals));
+    }
+    if (bake.manifest.probes) {
+        auto probes = read_probes(folder / *bake.manifest.probes);
+        if (!probes) return probes.error();
+        bake.probes = *std::move(probes);
+    }
+    return bake;
+}
+
+}  // namespace lobelia

@@ -1,0 +1,90 @@
+// Structs as JSON objects in both directions from one list of their fields:
+//
+//   void fields(auto& archive, Options& options) {
+//       archive.whole("samples", options.samples, 1, 1000);
+//   }
+//
+// With a JsonFieldWriter it fills an object, with a JsonFieldReader it reads one; what is missing keeps its value.
+#pragma once
+
+#include "bake/write/json_place.h"
+
+namespace lobelia {
+
+class JsonFieldWriter {
+  public:
+    template <class T>
+    void whole(const char* name, const T& value, std::uint64_t /*least*/, std::uint64_t /*most*/) {
+        object[name] = value;
+    }
+    void number(const char* name, const double& value) { object[name] = value; }
+    void number(const char* name, const std::optional<double>& value) {
+        object[name] = value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json();
+    }
+    void text(const char* name, const std::string& value) { object[name] = value; }
+    void text(const char* name, const std::optional<std::string>& value) {
+        object[name] = value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json();
+    }
+    void texts(const char* name, const std::optional<std::vector<std::string>>& value) {
+        object[name] = value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json();
+    }
+    void flag(const char* name, const bool& value) { object[name] = value; }
+    template <class Enum, std::size_t N>
+    void choice(const char* name, const Enum& value, const std::array<const char*, N>& names) {
+        object[name] = names[static_cast<std::size_t>(value)];
+    }
+    template <class T>
+    void group(const char* name, T& value) {
+        JsonFieldWriter inner;
+        fields(inner, value);
+        object[name] = std::move(inner.object);
+    }
+
+    nlohmann::ordered_json object = nlohmann::ordered_json::object();
+};
+
+class JsonFieldReader {
+  public:
+    explicit JsonFieldReader(JsonPlace place) : place_(std::move(place)) {}
+
+    template <class T>
+    void whole(const char* name, T& value, std::uint64_t least, std::uint64_t most) {
+        if (const auto found = place_.find(name)) value = static_cast<T>(found->whole(least, most));
+    }
+    void number(const char* name, double& value) {
+        if (const auto found = place_.find(name)) value = found->number();
+    }
+    void number(const char* name, std::optional<double>& value) {
+        if (const auto found = place_.find(name)) value = found->number();
+    }
+    template <class Text>
+    void text(const char* name, Text& value) {
+        if (const auto found = place_.find(name)) value = found->text();
+    }
+    void texts(const char* name, std::optional<std::vector<std::string>>& value) {
+        const auto found = place_.find(name);
+        if (!found) return;
+        constexpr std::size_t k_most_texts = 1024;
+        value.emplace();
+        for (const auto& text : found->list(k_most_texts)) value->push_back(text.text());
+    }
+    void flag(const char* name, bool& value) {
+        if (const auto found = place_.find(name)) value = found->flag();
+    }
+    template <class Enum, std::size_t N>
+    void choice(const char* name, Enum& value, const std::array<const char*, N>& names) {
+        if (const auto found = place_.find(name)) value = static_cast<Enum>(found->one_of(names));
+    }
+    template <class T>
+    void group(const char* name, T& value) {
+        if (const auto found = place_.find(name)) {
+            JsonFieldReader inner(*found);
+            fields(inner, value);
+        }
+    }
+
+  private:
+    JsonPlace place_;
+};
+
+}  // namespace lobelia

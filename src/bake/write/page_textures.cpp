@@ -1,0 +1,84 @@
+// Lightmap pages as textures for GPUs.
+#include "bake/write/page_textures.h"
+
+#include <fmt/format.h>
+
+#include "core/storage/layout_text.h"
+#include "io/write_ktx2.h"
+#include "lobelia/codec.h"
+
+namespace lobelia {
+namespace {
+
+using Metadata = std::map<std::string, std::string>;
+
+Metadata metadata_of(const BakedTexture& texture, const std::string& origin) {
+    std::string channels;
+    for (const StoredChannel& channel : texture.layout.channels)
+        channels += (channels.empty() ? "" : "\n") + channel_text(channel);
+    return {{"lobelia.storage", texture.storage},
+            {"lobelia.format", std::string(info(texture.layout.format).name)},
+            {"lobelia.channels", channels},
+            {"lobelia.scale", fmt::format("{}", texture.scale)},
+            {"lobelia.subsampling", fmt::format("{}", texture.layout.subsampling)},
+            {"lobelia.origin", origin}};
+}
+
+Status write_texture(StagedFile& file, const PackedTexture& packed, Metadata metadata) {
+    return write_ktx2(file, {packed.format, packed.width, packed.height, packed.data, std::move(metadata)});
+}
+
+/// Shares of [0, 1] in 8 bits.
+PackedTexture packed_validity(const Page& page) {
+    PackedTexture packed{"validity", PixelFormat::r8, page.width, page.height, 1, {}};
+    packed.data.resize(byte_size(packed.format, page.width, page.height));
+    const float* channel = page.validity.data();
+    encode_texels(packed.format, page.width, page.height, {&channel, 1}, packed.data);
+    return packed;
+}
+
+}  // namespace
+
+Result<PageTextures> PageTextures::make(const std::string& codec,
+                                        const std::optional<std::vector<std::string>>& storages) {
+    PageTextures textures;
+    if (codec.empty()) {
+        if (storages && !storages->empty())
+            return Error{"storage \"" + storages->front() + "\": irradiance alone has no coefficients to be stored"};
+        return textures;
+    }
+    const auto made = make_codec(codec);
+    if (!made) return made.error();
+    textures.traits_ = coefficient_traits(*made->encoder());
+    if (!storages) {
+        textures.storages_ = default_storages(textures.traits_);
+        return textures;
+    }
+    auto found = find_storages(*storages, textures.traits_);
+    if (!found) return Error{codec + ": " + found.error().message};
+    textures.storages_ = std::move(*found);
+    return textures;
+}
+
+Status PageTextures::add(FilesTogether& files, const Page& page, const std::string& origin, BakedPage& baked) const {
+    if (storages_.empty()) return Done{};
+    const std::string stem = std::filesystem::path(baked.file).stem().string();
+    const CoefficientPlanes planes(page.width, page.height, std::span(page.planes), traits_.count);
+    for (const Storage* storage : storages_) {
+        const auto take = [&](const TextureLayout::Texture& layout, const PackedTexture& packed) {
+            const std::string file = fmt::format("{}.{}.{}.ktx2", stem, storage->name, layout.name);
+            const BakedTexture& texture =
+                baked.textures.emplace_back(BakedTexture{std::string(storage->name), file, layout, packed.scale});
+            return files.add(
+                file, [&](StagedFile& staged) { return write_texture(staged, packed, metadata_of(texture, origin)); });
+        };
+        if (Status status = pack_each(storage->layout(traits_), planes, take); !status) return status;
+    }
+    baked.validity = stem + ".validity.ktx2";
+    return files.add(*baked.validity, [&](StagedFile& staged) {
+        return write_texture(staged, packed_validity(page),
+                             {{"lobelia.channels", "validity"}, {"lobelia.origin", origin}});
+    });
+}
+
+}  // namespace lobelia

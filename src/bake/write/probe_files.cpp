@@ -1,0 +1,160 @@
+// Probes as two files: probes.json says what there is, probes.bin holds the coefficients.
+#include "bake/write/probe_files.h"
+
+#include <fmt/format.h>
+
+#include <bit>
+#include <cmath>
+
+#include "bake/write/json_place.h"
+#include "io/read_file.h"
+#include "lobelia/codec.h"
+
+namespace lobelia {
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr std::uint64_t k_most_probes = 1u << 26, k_most_cells = 1u << 26, k_most_coefficients = 4096;
+constexpr std::uintmax_t k_most_mebibytes = 16384;
+static_assert(std::endian::native == std::endian::little, "files are little-endian");
+
+ordered_json triple(Vec3 v) { return {shortest(v.x), shortest(v.y), shortest(v.z)}; }
+
+ordered_json singles(const std::vector<float>& values) {
+    ordered_json list = ordered_json::array();
+    for (float value : values) list.push_back(shortest(value));
+    return list;
+}
+
+ordered_json to_json(const ProbeCell& cell) {
+    return {{"lowest", triple(cell.lowest)}, {"size", shortest(cell.size)}, {"corners", cell.corners}};
+}
+
+ProbeGrid read_grid(const JsonPlace& place, std::size_t probes) {
+    ProbeGrid grid{{}, place.at("origin").vector(), place.at("spacing").vector()};
+    const auto count = place.at("count").list_of(3);
+    std::uint64_t product = 1;
+    for (std::size_t k = 0; k < 3; ++k) {
+        grid.count[k] = static_cast<std::uint32_t>(count[k].whole(1, k_most_probes));
+        product *= grid.count[k];
+        if (product > probes) break;
+    }
+    if (product != probes) place.at("count").refuse(fmt::format("it is not that of {} probes", probes));
+    return grid;
+}
+
+ProbeCell read_cell(const JsonPlace& place, std::size_t probes) {
+    ProbeCell cell{place.at("lowest").vector(), place.at("size").single(), {}};
+    if (!(cell.size > 0)) place.at("size").refuse("not above 0");
+    const auto corners = place.at("corners").list_of(8);
+    for (std::size_t k = 0; k < 8; ++k) cell.corners[k] = static_cast<std::uint32_t>(corners[k].whole(0, probes - 1));
+    return cell;
+}
+
+std::vector<float> read_shares(const JsonPlace& place, std::size_t size) {
+    std::vector<float> shares;
+    for (const auto& entry : place.list_of(size)) shares.push_back(static_cast<float>(entry.number_in(0, 1)));
+    return shares;
+}
+
+void read_codec(const JsonPlace& top, ProbeSet& probes) {
+    probes.codec = top.at("codec").text();
+    const auto name = parse_codec_name(probes.codec);
+    if (!name) top.at("codec").refuse(name.error().message);
+    const auto basis = make_basis(name->basis);
+    if (!basis) top.at("codec").refuse(basis.error().message);
+    if ((*basis)->domain() != Domain::sphere) top.at("codec").refuse("not a basis over the sphere");
+    probes.coefficients_per_probe = top.at("coefficients").whole(0, k_most_coefficients);
+    if (probes.coefficients_per_probe != (*basis)->size())
+        top.at("coefficients").refuse(fmt::format("{} has {} coefficients", name->basis, (*basis)->size()));
+}
+
+/// All but the coefficients, and the name of their file.
+std::string read_description(const JsonPlace& top, ProbeSet& probes) {
+    const auto version = top.at("lobelia_probes").whole(0, 0xffffffff);
+    if (version != static_cast<std::uint64_t>(k_probes_version))
+        top.at("lobelia_probes")
+            .refuse(fmt::format("version {}, but this program reads version {}", version, k_probes_version));
+    read_codec(top, probes);
+    for (const auto& position : top.at("positions").list(k_most_probes)) probes.positions.push_back(position.vector());
+    const std::size_t count = probes.size();
+    if (count == 0) top.at("positions").refuse("no probes");
+    if (top.at("count").whole(0, k_most_probes) != count) top.at("count").refuse(fmt::format("not {}", count));
+    probes.validity = read_shares(top.at("validity"), count);
+    probes.back_faces = read_shares(top.at("back_faces"), count);
+    if (const auto grid = top.find("grid")) probes.grid = read_grid(*grid, count);
+    for (const auto& cell : top.at("cells").list(k_most_cells)) probes.cells.push_back(read_cell(cell, count));
+    return top.at("file").file_name();
+}
+
+Status read_coefficients(const std::filesystem::path& path, ProbeSet& probes) {
+    const auto bytes = read_text(path, k_most_mebibytes);
+    if (!bytes) return bytes.error();
+    const std::size_t values = 3 * probes.size() * probes.coefficients_per_probe;
+    if (bytes->size() != values * sizeof(float))
+        return Error{fmt::format("{}: {} bytes, but {} probes of {} coefficients take {}", path.string(), bytes->size(),
+                                 probes.size(), probes.coefficients_per_probe, values * sizeof(float))};
+    probes.coefficients.resize(values / 3);
+    std::memcpy(probes.coefficients.data(), bytes->data(), bytes->size());
+    for (std::size_t i = 0; i < probes.coefficients.size(); ++i) {
+        const Rgb c = probes.coefficients[i];
+        if (!std::isfinite(c.r) || !std::isfinite(c.g) || !std::isfinite(c.b))
+            return Error{fmt::format("{}: coefficient {} of probe {} is not finite", path.string(),
+                                     i % probes.coefficients_per_probe, i / probes.coefficients_per_probe)};
+    }
+    return Done{};
+}
+
+}  // namespace
+
+std::string to_json_text(const ProbeSet& probes, std::string_view binary_file) {
+    ordered_json positions = ordered_json::array(), cells = ordered_json::array(), grid;
+    for (const Vec3& position : probes.positions) positions.push_back(triple(position));
+    for (const ProbeCell& cell : probes.cells) cells.push_back(to_json(cell));
+    if (probes.grid)
+        grid = {{"count", probes.grid->count},
+                {"origin", triple(probes.grid->origin)},
+                {"spacing", triple(probes.grid->spacing)}};
+    const ordered_json document = {{"lobelia_probes", k_probes_version},
+                                   {"codec", probes.codec},
+                                   {"coefficients", probes.coefficients_per_probe},
+                                   {"frame", "world"},
+                                   {"file", binary_file},
+                                   {"count", probes.size()},
+                                   {"grid", std::move(grid)},
+                                   {"positions", std::move(positions)},
+                                   {"validity", singles(probes.validity)},
+                                   {"back_faces", singles(probes.back_faces)},
+                                   {"cells", std::move(cells)}};
+    return document.dump(-1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
+Status write_probe_coefficients(StagedFile& file, const ProbeSet& probes) {
+    assert(probes.coefficients.size() == probes.size() * probes.coefficients_per_probe);
+    static_assert(sizeof(Rgb) == 3 * sizeof(float));
+    return file.write(std::as_bytes(std::span(probes.coefficients)));
+}
+
+Result<ProbeDescription> probes_from_json(std::string_view text, const std::string& name) {
+    try {
+        const nlohmann::json document = parse_json(text, name);
+        ProbeDescription result;
+        result.file = read_description(JsonPlace(document, name), result.probes);
+        return result;
+    } catch (const JsonRefusal& refusal) {
+        return Error{refusal.what()};
+    }
+}
+
+Result<ProbeSet> read_probes(const std::filesystem::path& path) {
+    const auto text = read_text(path, k_most_mebibytes);
+    if (!text) return text.error();
+    auto description = probes_from_json(*text, path.string());
+    if (!description) return description.error();
+    if (auto status = read_coefficients(path.parent_path() / description->file, description->probes); !status)
+        return status.error();
+    return std::move(description->probes);
+}
+
+}  // namespace lobelia

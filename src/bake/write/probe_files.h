@@ -1,0 +1,30 @@
+// Probes as two files: probes.json says what there is, probes.bin holds the coefficients, float32 little-endian.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "bake/probes/probes.h"
+#include "io/staged_file.h"
+
+namespace lobelia {
+
+inline constexpr int k_probes_version = 1;
+
+/// The text of the JSON file, which names `binary_file`.
+[[nodiscard]] std::string to_json_text(const ProbeSet& probes, std::string_view binary_file);
+/// The binary file: red, green, blue of coefficient after coefficient, probe after probe.
+[[nodiscard]] Status write_probe_coefficients(StagedFile& file, const ProbeSet& probes);
+
+/// What the JSON file holds: probes without their coefficients, and the name of the file with those.
+struct ProbeDescription {
+    ProbeSet probes;
+    std::string file;
+};
+[[nodiscard]] Result<ProbeDescription> probes_from_json(std::string_view text, const std::string& name);
+
+/// Both files, from the JSON file's path. Errors name the file and the place in it.
+[[nodiscard]] Result<ProbeSet> read_probes(const std::filesystem::path& path);
+
+}  // namespace lobelia

@@ -1,0 +1,117 @@
+// bake.json, written.
+#include <fmt/format.h>
+
+#include "bake/write/bake_fields.h"
+#include "bake/write/manifest.h"
+#include "bake/write/page_files.h"
+#include "core/storage/layout_text.h"
+#include "scene/scene_hash.h"
+
+namespace lobelia {
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr const char* k_version = LOBELIA_VERSION;
+
+ordered_json or_null(const std::optional<std::string>& text) { return text ? ordered_json(*text) : ordered_json(); }
+
+ordered_json to_json(const BakedTexture& texture) {
+    ordered_json json = {{"storage", texture.storage}, {"file", texture.file}, {"scale", shortest(texture.scale)}};
+    json.update(ordered_json::parse(texture_json(texture.layout)));
+    return json;
+}
+
+ordered_json to_json(const BakedPage& page) {
+    ordered_json textures = ordered_json::array();
+    for (const auto& texture : page.textures) textures.push_back(to_json(texture));
+    return {{"file", page.file}, {"textures", std::move(textures)}, {"validity", or_null(page.validity)}};
+}
+
+/// In double precision, page uv = uv_scale * uv + uv_offset gives back the placement exactly.
+ordered_json to_json(const BakedObject& object, const Manifest& m) {
+    const AtlasPlacement& p = object.placement;
+    if (!p.baked) return {{"name", object.name}, {"page", nullptr}};
+    const auto width = static_cast<double>(m.width), height = static_cast<double>(m.height);
+    return {{"name", object.name},
+            {"page", p.page},
+            {"uv_scale", {p.scale.x / width, p.scale.y / height}},
+            {"uv_offset", {p.offset.x / width, p.offset.y / height}},
+            {"texels", {p.texels.x0, p.texels.y0, p.texels.x1, p.texels.y1}}};
+}
+
+/// For people; readers may rely on the version alone.
+ordered_json conventions(const Manifest& m) {
+    const bool tangent = m.options.frame == Frame::tangent;
+    return {
+        {"colour", "linear Rec. 709"},
+        {"coefficients", "of radiance [W/(m^2 sr)]"},
+        {"irradiance", "E [W/m^2], not divided by pi"},
+        {"axes", "right-handed, y up, metres"},
+        {"directions", tangent ? "tangent frame: rows x, y, z of the formula, z the shading normal" : "world frame"},
+        {"tangent_frame", tangent ? ordered_json("frisvad-2012 about (2, 3, 6) / 7") : ordered_json()},
+        {"uv", "(0, 0) at the top left, texel centres at + 0.5"},
+        {"described_in", "docs/conventions.md and docs/bake-format.md of Lobelia"}};
+}
+
+template <class T>
+ordered_json all_fields(T value) {
+    JsonFieldWriter writer;
+    fields(writer, value);
+    return std::move(writer.object);
+}
+
+}  // namespace
+
+Manifest make_manifest(const Scene& scene, const Atlas& atlas, const BakeOptions& options,
+                       const BakeStatistics& statistics) {
+    Manifest m;
+    m.program = k_version;
+    m.scene_name = scene.name;
+    m.scene_hash = scene_hash(scene);
+    m.coefficients = options.codec.empty() ? 0 : make_codec(options.codec).value().basis().size();
+    m.width = atlas.width();
+    m.height = atlas.height();
+    for (std::size_t i = 0; i < scene.objects.size(); ++i)
+        m.objects.push_back({scene.objects[i].name, atlas.placements()[i]});
+    m.options = options;
+    m.statistics = statistics;
+    return m;
+}
+
+std::string to_json_text(const Manifest& m) {
+    const CodecName name = m.options.codec.empty() ? CodecName{} : parse_codec_name(m.options.codec).value();
+    ordered_json pages = ordered_json::array(), objects = ordered_json::array();
+    for (const auto& page : m.pages) pages.push_back(to_json(page));
+    for (const auto& object : m.objects) objects.push_back(to_json(object, m));
+    const ordered_json document = {{"lobelia_bake", k_bake_version},
+                                   {"program", m.program},
+                                   {"scene",
+                                    {{"name", m.scene_name},
+                                     {"hash", fmt::format("{:016x}", m.scene_hash)},
+                                     {"file", or_null(m.scene)},
+                                     {"environment", or_null(m.environment)}}},
+                                   {"warnings", m.warnings},
+                                   {"codec",
+                                    {{"name", m.options.codec},
+                                     {"basis", name.basis},
+                                     {"encoder", name.encoder},
+                                     {"evaluator", name.evaluator},
+                                     {"coefficients", m.coefficients},
+                                     {"frame", k_frame_names[static_cast<std::size_t>(m.options.frame)]}}},
+                                   {"conventions", conventions(m)},
+                                   {"layout",
+                                    {{"width", m.width},
+                                     {"height", m.height},
+                                     {"precision", k_precision_names[static_cast<std::size_t>(m.precision)]},
+                                     {"channels", page_channel_names(PageLayout{m.coefficients})},
+                                     {"pages", std::move(pages)}}},
+                                   {"objects", std::move(objects)},
+                                   {"probes", or_null(m.probes)},
+                                   {"options", all_fields(m.options)},
+                                   {"finish", m.finish},
+                                   {"statistics", all_fields(m.statistics)}};
+    return document.dump(1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace lobelia

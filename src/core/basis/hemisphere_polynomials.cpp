@@ -1,0 +1,187 @@
+// The H-basis: values, irradiance above the horizon, rotation about the normal.
+#include "core/basis/hemisphere_polynomials.h"
+
+#include "core/math/kernels.h"
+#include "core/math/quadrature.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "core/basis/hemisphere_polynomials.cpp"
+#include <hwy/foreach_target.h>  // NOLINT: must precede highway.h
+#include <hwy/highway.h>
+// NOLINTNEXTLINE: after highway.h
+#include <hwy/contrib/math/math-inl.h>
+
+// NOLINTNEXTLINE: after highway.h
+#include "core/math/lanes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lobelia::HWY_NAMESPACE {
+
+/// rows = k0, k1 y, k1 (2z - 1), k1 x, k2 xy, k2 (x^2 - y^2) / 2.
+void PolynomialRows(std::size_t count, const float* k, DirectionView block, float* rows) {
+    const D d;
+    const V k1 = hn::Set(d, k[1]), k2 = hn::Set(d, k[2]);
+    for (std::size_t j = 0; j < block.size; j += hn::Lanes(d)) {
+        const auto [x, y, z] = load(d, block, j);
+        hn::StoreU(hn::Set(d, k[0]), d, rows + j);
+        hn::StoreU(hn::Mul(k1, y), d, rows + k_block_size + j);
+        hn::StoreU(hn::Mul(k1, hn::Sub(hn::Add(z, z), hn::Set(d, 1.0f))), d, rows + 2 * k_block_size + j);
+        hn::StoreU(hn::Mul(k1, x), d, rows + 3 * k_block_size + j);
+        if (count < 6) continue;
+        hn::StoreU(hn::Mul(k2, hn::Mul(x, y)), d, rows + 4 * k_block_size + j);
+        const V difference = hn::NegMulAdd(y, y, hn::Mul(x, x));
+        hn::StoreU(hn::Mul(hn::Mul(k2, hn::Set(d, 0.5f)), difference), d, rows + 5 * k_block_size + j);
+    }
+}
+
+void HorizonRows(std::size_t count, DirectionView block, float* rows) {
+    const D d;
+    const auto pi = static_cast<float>(k_pi);
+    const V one = hn::Set(d, 1.0f);
+    for (std::size_t j = 0; j < block.size; j += hn::Lanes(d)) {
+        const auto [x, y, z] = load(d, block, j);
+        const V c = hn::Min(hn::Max(z, hn::Set(d, -1.0f)), one);
+        const V sine = hn::Sqrt(hn::Max(hn::NegMulAdd(c, c, one), hn::Zero(d)));
+        const V rest = hn::Sub(hn::Set(d, pi), hn::Acos(d, c));  // pi - g
+        const V slope = hn::Mul(hn::Set(d, 2.0f / 3), rest);
+        hn::StoreU(hn::MulAdd(hn::Set(d, pi / 2), c, hn::Set(d, pi / 2)), d, rows + j);
+        hn::StoreU(hn::Mul(slope, y), d, rows + k_block_size + j);
+        hn::StoreU(hn::Mul(hn::Set(d, 2.0f / 3), hn::MulAdd(rest, c, sine)), d, rows + 2 * k_block_size + j);
+        hn::StoreU(hn::Mul(slope, x), d, rows + 3 * k_block_size + j);
+        if (count < 6) continue;
+        hn::StoreU(hn::Mul(hn::Set(d, pi / 8), hn::Mul(x, y)), d, rows + 4 * k_block_size + j);
+        const V difference = hn::NegMulAdd(y, y, hn::Mul(x, x));
+        hn::StoreU(hn::Mul(hn::Set(d, pi / 16), difference), d, rows + 5 * k_block_size + j);
+    }
+}
+
+}  // namespace lobelia::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace lobelia {
+
+HWY_EXPORT(PolynomialRows);
+HWY_EXPORT(HorizonRows);
+
+namespace {
+
+/// Exact irradiance of what is above the horizon.
+class ExactAboveHorizon final : public LinearEvaluator {
+  public:
+    explicit ExactAboveHorizon(std::size_t count) : irradiance_(count) {}
+    [[nodiscard]] std::string name() const override { return "exact"; }
+    [[nodiscard]] Accuracy accuracy() const override {
+        return {"everywhere", "4e-6 of the largest E (float32 rounding)"};
+    }
+    [[nodiscard]] std::size_t size() const override { return irradiance_.size(); }
+    void values(DirectionView block, float* rows) const override {
+        irradiance_.values(block, rows);
+        // From monomials to the basis: row 2 is of 2z - 1.
+        const auto k0 = static_cast<float>(HemispherePolynomials::factor(0)),
+                   k1 = static_cast<float>(HemispherePolynomials::factor(1)),
+                   k2 = static_cast<float>(HemispherePolynomials::factor(2));
+        for (std::size_t j = 0; j < block.size; ++j) {
+            float& up = rows[2 * k_block_size + j];
+            up = 2 * up - rows[j];
+        }
+        const float factors[] = {k0, k1, k1, k1, k2, k2};
+        for (std::size_t i = 0; i < size(); ++i)
+            for (std::size_t j = 0; j < block.size; ++j) rows[i * k_block_size + j] *= factors[i];
+    }
+
+  private:
+    HorizonIrradiance irradiance_;
+};
+
+/// The nearest combination of the basis's own polynomials to the exact irradiance, over the upper normals.
+class Projected final : public LinearEvaluator {
+  public:
+    explicit Projected(std::size_t count) : basis_(count) {
+        for (double m : inner_products(ExactAboveHorizon(count), basis_, product_rule(Domain::hemisphere, 24)))
+            matrix_.push_back(static_cast<float>(m));
+    }
+    [[nodiscard]] std::string name() const override { return "projected"; }
+    [[nodiscard]] Accuracy accuracy() const override {
+        return {"normals above the horizon", "0.18 for each unit of a coefficient, near the horizon",
+                Reading::of_its_own, 1e-4};
+    }
+    [[nodiscard]] std::size_t size() const override { return basis_.size(); }
+    void values(DirectionView block, float* rows) const override {
+        std::array<float, 6 * k_block_size> own;
+        basis_.values(block, own.data());
+        kernels::transform_rows(own.data(), size(), matrix_.data(), block.size, rows);
+    }
+
+  private:
+    HemispherePolynomials basis_;
+    std::vector<float> matrix_;
+};
+
+}  // namespace
+
+void HorizonIrradiance::values(DirectionView block, float* rows) const {
+    HWY_DYNAMIC_DISPATCH(HorizonRows)(count_, block, rows);
+}
+
+Result<std::shared_ptr<const Basis>> HemispherePolynomials::from_name(std::string_view name) {
+    for (const std::size_t count : {4u, 6u}) {
+        auto basis = std::make_shared<HemispherePolynomials>(count);
+        if (basis->name() == name) return std::shared_ptr<const Basis>(std::move(basis));
+    }
+    return std::shared_ptr<const Basis>();
+}
+
+void HemispherePolynomials::values(DirectionView block, float* rows) const {
+    const float k[] = {static_cast<float>(factor(0)), static_cast<float>(factor(1)), static_cast<float>(factor(2))};
+    HWY_DYNAMIC_DISPATCH(PolynomialRows)(count_, k, block, rows);
+}
+
+std::string HemispherePolynomials::description() const {
+    return "H-basis: " + std::to_string(count_) + " polynomials orthonormal over the hemisphere";
+}
+
+BasisNotes HemispherePolynomials::notes() const {
+    return {
+        "H-basis",
+        "L(w) = sum of c_i H_i(w), H = sqrt(1/2pi), sqrt(3/2pi) y, sqrt(3/2pi) (2z - 1), sqrt(3/2pi) x, and for six "
+        "sqrt(15/2pi) xy, sqrt(15/8pi) (x^2 - y^2)",
+        "lightmaps with normal maps: no coefficient is spent below the horizon, and irradiance at the surface's own "
+        "normal is exact after least squares",
+        "small and bright sources; use where a normal may point below the surface"};
+}
+
+Matrix HemispherePolynomials::gram() const {
+    Matrix identity(count_ * count_);
+    for (std::size_t i = 0; i < count_; ++i) identity[i * count_ + i] = 1;
+    return identity;
+}
+
+std::vector<double> HemispherePolynomials::integrals() const {
+    std::vector<double> result(count_);
+    result[0] = std::sqrt(2 * k_pi);
+    return result;
+}
+
+std::shared_ptr<const Evaluator> HemispherePolynomials::evaluator(std::string_view name) const {
+    if (name == "exact") return std::make_shared<ExactAboveHorizon>(count_);
+    if (name == "projected") return std::make_shared<Projected>(count_);
+    return nullptr;
+}
+
+Basis::Rotated HemispherePolynomials::rotated(const Rotation& r, std::span<const Rgb> c) const {
+    // About z by the angle t: (x, y) as a vector, (x^2 - y^2, 2xy) as one turned by 2t.
+    const float cosine = r[0].x, sine = r[1].x;
+    std::vector<Rgb> turned(c.begin(), c.end());
+    turned[3] = c[3] * cosine - c[1] * sine;
+    turned[1] = c[3] * sine + c[1] * cosine;
+    if (count_ == 6) {
+        const float twice_cosine = cosine * cosine - sine * sine, twice_sine = 2 * sine * cosine;
+        turned[5] = c[5] * twice_cosine - c[4] * twice_sine;
+        turned[4] = c[5] * twice_sine + c[4] * twice_cosine;
+    }
+    return {std::make_shared<HemispherePolynomials>(count_), std::move(turned)};
+}
+
+}  // namespace lobelia
+#endif

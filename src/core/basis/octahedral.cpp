@@ -1,0 +1,240 @@
+// Octahedral texels: the map, exact cells, irradiance from centroids.
+#include "core/basis/octahedral.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+
+#include "core/math/quadrature.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "core/basis/octahedral.cpp"
+#include <hwy/foreach_target.h>  // NOLINT: must precede highway.h
+#include <hwy/highway.h>
+// NOLINTNEXTLINE: after highway.h
+#include "core/math/lanes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lobelia::HWY_NAMESPACE {
+
+/// row = omega times the mean of max(0, t + x), t = mean . n, x uniform in [-w, w] with the variance of w . n.
+void CentroidRow(const OctahedralTexels::Centroid& cell, DirectionView block, float* row) {
+    const D d;
+    const auto k = [&](std::size_t i, float factor) HWY_ATTR { return hn::Set(d, factor * cell.variance[i]); };
+    // The width is sqrt(3 variance).
+    const V xx = k(0, 3), yy = k(1, 3), zz = k(2, 3), xy = k(3, 6), yz = k(4, 6), xz = k(5, 6);
+    const V omega = hn::Set(d, cell.solid_angle), zero = hn::Zero(d);
+    for (std::size_t j = 0; j < block.size; j += hn::Lanes(d)) {
+        const Lanes3 n = load(d, block, j);
+        const V along_x = hn::MulAdd(xx, n.x, hn::MulAdd(xy, n.y, hn::Mul(xz, n.z)));
+        const V along_y = hn::MulAdd(yy, n.y, hn::Mul(yz, n.z));
+        const V squared = hn::MulAdd(along_x, n.x, hn::MulAdd(along_y, n.y, hn::Mul(hn::Mul(zz, n.z), n.z)));
+        const V w = hn::Sqrt(hn::Max(squared, hn::Set(d, 1e-8f)));
+        const V t = dot(d, cell.mean, n);
+        const V ramp = hn::Min(hn::Max(hn::Add(t, w), zero), hn::Add(w, w));
+        const V above = hn::Max(hn::Sub(t, w), zero);
+        const V at_horizon = hn::Div(hn::Mul(ramp, ramp), hn::Mul(hn::Set(d, 4.0f), w));
+        hn::StoreU(hn::Mul(omega, hn::Add(at_horizon, above)), d, row + j);
+    }
+}
+
+}  // namespace lobelia::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace lobelia {
+
+HWY_EXPORT(CentroidRow);
+
+namespace {
+
+constexpr std::size_t k_highest_resolution = 64;
+
+using Point = std::array<double, 3>;
+
+Point unit(Point p) {
+    const double length = std::sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
+    return {p[0] / length, p[1] / length, p[2] / length};
+}
+double dot3(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+Point cross3(const Point& a, const Point& b) {
+    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+double sign_of(double x) { return x < 0 ? -1 : 1; }
+
+/// The point of the octahedron that (u, v) stands for.
+Point octahedral_point(double u, double v) {
+    const double z = 1 - std::abs(u) - std::abs(v);
+    if (z >= 0) return {u, v, z};
+    return {(1 - std::abs(v)) * sign_of(u), (1 - std::abs(u)) * sign_of(v), z};
+}
+
+/// Adds the second moment of the triangle a, b, c seen from the origin: w = p / |p|, dw = |a . (b x c)| s ds dt / |p|^3
+/// for p = a + s (b - a) + s t (c - b).
+void add_second_moment(OctahedralMap::Cell& cell, const Point& a, const Point& b, const Point& c) {
+    static const GaussLegendre rule(4, 0, 1);
+    const double volume = std::abs(dot3(a, cross3(b, c)));
+    for (std::size_t i = 0; i < 4; ++i)
+        for (std::size_t j = 0; j < 4; ++j) {
+            const double s = rule.nodes[i], t = rule.nodes[j];
+            Point p;
+            for (std::size_t k = 0; k < 3; ++k) p[k] = a[k] + s * (b[k] - a[k]) + s * t * (c[k] - b[k]);
+            const double squared = dot3(p, p);
+            const double weight =
+                rule.weights[i] * rule.weights[j] * s * volume / (squared * squared * std::sqrt(squared));
+            for (std::size_t k = 0; k < 6; ++k) cell.second_moment[k] += weight * p[k % 3] * p[k < 3 ? k : (k + 1) % 3];
+        }
+}
+
+/// Adds a spherical triangle: its solid angle (Van Oosterom and Strackee 1983) and its first moment, half the sum over
+/// its edges of their lengths along the normals of their planes (Lambert 1760).
+void add_triangle(OctahedralMap::Cell& cell, const Point& a, const Point& b, const Point& c) {
+    const double volume = dot3(a, cross3(b, c));
+    const double turn = volume < 0 ? -1 : 1;
+    cell.solid_angle += 2 * std::atan2(std::abs(volume), 1 + dot3(a, b) + dot3(b, c) + dot3(c, a));
+    const std::array edges = {std::array{a, b}, std::array{b, c}, std::array{c, a}};
+    for (const auto& [from, to] : edges) {
+        const Point normal = cross3(from, to);
+        const double sine = std::sqrt(dot3(normal, normal));
+        const double length = std::atan2(sine, dot3(from, to));
+        for (std::size_t k = 0; k < 3; ++k) cell.first_moment[k] += turn * length / 2 * normal[k] / sine;
+    }
+}
+
+class Centroids final : public LinearEvaluator {
+  public:
+    Centroids(std::vector<OctahedralTexels::Centroid> cells, const Rotation& map_from_domain)
+        : cells_(std::move(cells)), map_from_domain_(map_from_domain) {}
+    [[nodiscard]] std::string name() const override { return "centroid"; }
+    [[nodiscard]] Accuracy accuracy() const override {
+        return {"resolution 8 and more", "0.5 % of the largest E of a cell, where the horizon cuts it"};
+    }
+    [[nodiscard]] std::size_t size() const override { return cells_.size(); }
+    void values(DirectionView block, float* rows) const override {
+        Directions turned(k_block_size);
+        for (std::size_t j = 0; j < block.size; ++j)
+            set_entry(turned.view(), j, rotate(map_from_domain_, direction_at(block, j)));
+        for (std::size_t i = 0; i < cells_.size(); ++i)
+            HWY_DYNAMIC_DISPATCH(CentroidRow)(cells_[i], turned.view().part(0, block.size), rows + i * k_block_size);
+    }
+
+  private:
+    std::vector<OctahedralTexels::Centroid> cells_;
+    Rotation map_from_domain_;
+};
+
+}  // namespace
+
+Vec3 OctahedralMap::direction(double u, double v) {
+    const Point p = unit(octahedral_point(u, v));
+    return {static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])};
+}
+
+std::size_t OctahedralMap::index(Vec3 direction) const {
+    const float scale = 1 / (std::abs(direction.x) + std::abs(direction.y) + std::abs(direction.z));
+    float u = direction.x * scale, v = direction.y * scale;
+    if (direction.z < 0) {
+        const float folded = (1 - std::abs(v)) * (u < 0 ? -1.0f : 1.0f);
+        v = (1 - std::abs(u)) * (v < 0 ? -1.0f : 1.0f);
+        u = folded;
+    }
+    const auto place = [&](float x) {
+        const auto cell = static_cast<long>((x + 1) / 2 * static_cast<float>(resolution));
+        return static_cast<std::size_t>(std::clamp(cell, 0L, static_cast<long>(resolution) - 1));
+    };
+    return place(v) * resolution + place(u);
+}
+
+OctahedralMap::Cell OctahedralMap::cell(std::size_t index) const {
+    const auto edge = [&](std::size_t i) { return 2 * static_cast<double>(i) / static_cast<double>(resolution) - 1; };
+    const std::size_t column = index % resolution, row = index / resolution;
+    const double u[] = {edge(column), edge(column + 1)}, v[] = {edge(row), edge(row + 1)};
+    // Cut it along the diagonal on which |u| + |v| is constant, which may be the octahedron's edge.
+    const bool falling = (u[0] + u[1] > 0) == (v[0] + v[1] > 0);
+    const Point a = octahedral_point(u[0], falling ? v[1] : v[0]);
+    const Point b = octahedral_point(u[1], falling ? v[0] : v[1]);
+    Cell result;
+    for (const Point& c :
+         {octahedral_point(u[0], falling ? v[0] : v[1]), octahedral_point(u[1], falling ? v[1] : v[0])}) {
+        add_triangle(result, unit(a), unit(b), unit(c));
+        add_second_moment(result, a, b, c);
+    }
+    return result;
+}
+
+OctahedralTexels::OctahedralTexels(std::size_t resolution, const Rotation& map_from_domain)
+    : map_{resolution}, map_from_domain_(map_from_domain) {
+    assert(resolution >= 2 && resolution % 2 == 0);
+    for (std::size_t i = 0; i < map_.size(); ++i) {
+        const OctahedralMap::Cell cell = map_.cell(i);
+        std::array<double, 3> mean{};
+        for (std::size_t k = 0; k < 3; ++k) mean[k] = cell.first_moment[k] / cell.solid_angle;
+        Centroid centroid{{static_cast<float>(mean[0]), static_cast<float>(mean[1]), static_cast<float>(mean[2])},
+                          {},
+                          static_cast<float>(cell.solid_angle)};
+        for (std::size_t k = 0; k < 6; ++k)
+            centroid.variance[k] = static_cast<float>(cell.second_moment[k] / cell.solid_angle -
+                                                      mean[k % 3] * mean[k < 3 ? k : (k + 1) % 3]);
+        centroids_.push_back(centroid);
+    }
+}
+
+Result<std::shared_ptr<const Basis>> OctahedralTexels::from_name(std::string_view name) {
+    if (!name.starts_with("oct")) return std::shared_ptr<const Basis>();
+    std::size_t resolution = 0;
+    const auto [end, error] = std::from_chars(name.data() + 3, name.data() + name.size(), resolution);
+    if (error == std::errc::invalid_argument || end != name.data() + name.size()) return std::shared_ptr<const Basis>();
+    if (error != std::errc() || resolution < 2 || resolution % 2 != 0 || resolution > k_highest_resolution)
+        return Error{"basis \"" + std::string(name) + "\": the resolution must be even, 2 to 64"};
+    return std::shared_ptr<const Basis>(std::make_shared<OctahedralTexels>(resolution));
+}
+
+void OctahedralTexels::values(DirectionView block, float* rows) const {
+    std::fill_n(rows, size() * k_block_size, 0.0f);
+    for (std::size_t j = 0; j < block.size; ++j)
+        rows[map_.index(rotate(map_from_domain_, direction_at(block, j))) * k_block_size + j] = 1;
+}
+
+void OctahedralTexels::radiance(std::span<const Rgb> c, DirectionView directions, MutableColourView out) const {
+    for (std::size_t j = 0; j < directions.size; ++j)
+        set_entry(out, j, c[map_.index(rotate(map_from_domain_, direction_at(directions, j)))]);
+}
+
+std::string OctahedralTexels::description() const {
+    return "octahedral texels: constant radiance in " + std::to_string(map_.resolution) + " x " +
+           std::to_string(map_.resolution) + " cells";
+}
+
+BasisNotes OctahedralTexels::notes() const {
+    return {"Octahedral texels",
+            "L(w) = c_i of the cell that holds w: w / (|x| + |y| + |z|), its lower half folded out, on a grid of N x N",
+            "radiance of anything, at any resolution that is paid for; adding a sample touches one cell",
+            "bytes; noise, since a cell hears of few samples only"};
+}
+
+Matrix OctahedralTexels::gram() const {
+    Matrix result(size() * size());
+    for (std::size_t i = 0; i < size(); ++i) result[i * size() + i] = map_.cell(i).solid_angle;
+    return result;
+}
+
+std::vector<double> OctahedralTexels::integrals() const {
+    std::vector<double> result;
+    for (std::size_t i = 0; i < size(); ++i) result.push_back(map_.cell(i).solid_angle);
+    return result;
+}
+
+std::shared_ptr<const Evaluator> OctahedralTexels::evaluator(std::string_view name) const {
+    return name == "centroid" ? std::make_shared<Centroids>(centroids_, map_from_domain_) : nullptr;
+}
+
+Basis::Rotated OctahedralTexels::rotated(const Rotation& r, std::span<const Rgb> c) const {
+    // w' = R w is looked up at M R^T w'.
+    Rotation turned;
+    for (std::size_t i = 0; i < 3; ++i) turned[i] = rotate(r, map_from_domain_[i]);
+    return {std::make_shared<OctahedralTexels>(map_.resolution, turned), {c.begin(), c.end()}};
+}
+
+}  // namespace lobelia
+#endif

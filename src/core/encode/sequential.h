@@ -1,0 +1,38 @@
+// Encoders that hold an estimate and correct it with every sample: running averages and progressive least squares.
+// The running average and its corrected form (Roughton 2018, 2020), and the matrix gain (new).
+#pragma once
+
+#include <optional>
+
+#include "lobelia/encoder.h"
+
+namespace lobelia {
+
+enum class Sign { any, non_negative };
+
+/// running average, original: b_i += (v - est) w_i / sum w_i.
+[[nodiscard]] std::shared_ptr<const Encoder> make_running_average(std::shared_ptr<const LinearBasis> basis, Sign sign);
+
+/// Progressive least squares: b_i += ((v - sum_{k != i} b_k w_k) w_i / S_i - b_i) a, a the sample's share so far.
+struct ProgressiveOptions {
+    /// S_i, the mean of B_i^2: as sampled, as known, or the larger of both ("clamped").
+    enum class Denominator { clamped, sampled, exact } denominator = Denominator::clamped;
+    /// With `sampled`, the running mean starts from this in place of the first sample's square, by which it would
+    /// otherwise divide, however small; none: from the known mean.
+    std::optional<float> first_mean_square = {};
+    /// Early samples count less, weight 1 - e^(-i / ramp); none: all count alike.
+    std::optional<double> ramp = {};
+    /// Start from these coefficients, found from fewer samples, instead of from 0. Size 0 or basis size.
+    std::vector<Rgb> seed = {};
+    /// The later variant: S_i = a + (1 - a) m_i (whatever `denominator` says), gain times this, each lobe seeing the
+    /// correction of those before it; none: the plain form. Published with 3.
+    std::optional<double> acceleration = {};
+};
+[[nodiscard]] std::shared_ptr<const Encoder> make_progressive(std::shared_ptr<const LinearBasis> basis, Sign sign,
+                                                              const ProgressiveOptions& options = {});
+
+/// b += G^-1 w (v - w . b) / (N + n), n coefficients, N samples so far: converges like batch least squares with the
+/// memory of the running average. Not to be clamped on the way; for non-negative output see non_negative moments.
+[[nodiscard]] std::shared_ptr<const Encoder> make_matrix_gain(std::shared_ptr<const LinearBasis> basis);
+
+}  // namespace lobelia

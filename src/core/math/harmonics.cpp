@@ -1,0 +1,253 @@
+// Real spherical harmonics: normalised Legendre recurrences times the powers (x + iy)^m, and their rotation.
+#include "core/math/harmonics.h"
+
+#include <algorithm>
+#include <type_traits>
+
+#include "core/math/quadrature.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "core/math/harmonics.cpp"
+#include <hwy/foreach_target.h>  // NOLINT: must precede highway.h
+#include <hwy/highway.h>
+// NOLINTNEXTLINE: after highway.h
+#include "core/math/lanes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lobelia::harmonics::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+using lobelia::HWY_NAMESPACE::D;
+using lobelia::HWY_NAMESPACE::V;
+
+/// Calls `visit(i, value)` for the harmonics of the bands that are `wanted`, at the directions from entry j on; `table`
+/// holds for each order m its first value Q_m^m, then a pair (a, a b) for each l > m, with Q_l = a z Q_{l-1} - a b
+/// Q_{l-2}.
+template <class Wanted, class Visit>
+HWY_INLINE void for_each_harmonic(std::size_t degree, const float* table, DirectionView block, std::size_t j,
+                                  const Wanted& wanted, const Visit& visit) {
+    const D d;
+    const auto [x, y, z] = lobelia::HWY_NAMESPACE::load(d, block, j);
+    V cosine = hn::Set(d, 1.0f), sine = hn::Zero(d);
+    for (std::size_t m = 0; m <= degree; ++m) {
+        V q = hn::Set(d, *table++), previous = hn::Zero(d);
+        for (std::size_t l = m; l <= degree; ++l) {
+            if (wanted(l)) {
+                visit(l * l + l + m, hn::Mul(q, cosine));
+                if (m > 0) visit(l * l + l - m, hn::Mul(q, sine));
+            }
+            if (l == degree) break;
+            const V next = hn::NegMulAdd(hn::Set(d, table[1]), previous, hn::Mul(hn::Mul(hn::Set(d, table[0]), z), q));
+            table += 2;
+            previous = q;
+            q = next;
+        }
+        // Step to (x + iy)^(m + 1).
+        const V turned = hn::NegMulAdd(y, sine, hn::Mul(x, cosine));
+        sine = hn::MulAdd(x, sine, hn::Mul(y, cosine));
+        cosine = turned;
+    }
+}
+
+constexpr auto k_every_band = [](std::size_t) { return true; };
+
+void Values(std::size_t degree, const float* table, DirectionView block, float* rows) {
+    const D d;
+    for (std::size_t j = 0; j < block.size; j += hn::Lanes(d))
+        for_each_harmonic(degree, table, block, j, k_every_band,
+                          [&](std::size_t i, V value) HWY_ATTR { hn::StoreU(value, d, rows + i * k_block_size + j); });
+}
+
+/// `degree` is a number, or a constant so that all is unrolled.
+template <class Degree, class Wanted>
+void sum(Degree degree, const Wanted& wanted, const float* table, const Rgb* c, DirectionView directions,
+         MutableColourView out) {
+    const D d;
+    for (std::size_t j = 0; j < directions.size; j += hn::Lanes(d)) {
+        V r = hn::Zero(d), g = r, b = r;
+        for_each_harmonic(degree, table, directions, j, wanted, [&](std::size_t i, V value) HWY_ATTR {
+            r = hn::MulAdd(hn::Set(d, c[i].r), value, r);
+            g = hn::MulAdd(hn::Set(d, c[i].g), value, g);
+            b = hn::MulAdd(hn::Set(d, c[i].b), value, b);
+        });
+        lobelia::HWY_NAMESPACE::store(d, r, out.channel(0), j, out.size);
+        lobelia::HWY_NAMESPACE::store(d, g, out.channel(1), j, out.size);
+        lobelia::HWY_NAMESPACE::store(d, b, out.channel(2), j, out.size);
+    }
+}
+
+template <std::size_t degree>
+void sum_unrolled(const float* table, const Rgb* c, DirectionView directions, MutableColourView out) {
+    sum(std::integral_constant<std::size_t, degree>(), k_every_band, table, c, directions, out);
+}
+
+void Sum(std::size_t degree, const float* table, const Rgb* c, DirectionView directions, MutableColourView out) {
+    switch (degree) {
+        case 1:
+            return sum_unrolled<1>(table, c, directions, out);
+        case 2:
+            return sum_unrolled<2>(table, c, directions, out);
+        case 3:
+            return sum_unrolled<3>(table, c, directions, out);
+        case 4:
+            return sum_unrolled<4>(table, c, directions, out);
+        default:
+            break;
+    }
+    // Irradiance has no odd bands beyond the first: leave out what is 0 everywhere.
+    std::vector<char> lit(degree + 1);
+    for (std::size_t l = 0; l <= degree; ++l)
+        lit[l] = std::any_of(c + l * l, c + (l + 1) * (l + 1), [](Rgb v) { return v != Rgb{}; }) ? 1 : 0;
+    sum(
+        degree, [&](std::size_t l) { return lit[l] != 0; }, table, c, directions, out);
+}
+
+}  // namespace lobelia::harmonics::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace lobelia::harmonics {
+
+HWY_EXPORT(Values);
+HWY_EXPORT(Sum);
+
+double clamped_cosine(std::size_t l) {
+    if (l == 0) return k_pi;
+    if (l == 1) return 2 * k_pi / 3;
+    if (l % 2 == 1) return 0;
+    // 2 pi (-1)^(l/2 - 1) l! / ((l + 2) (l - 1) 2^l ((l/2)!)^2); the binomial part is a running product.
+    double binomial = 1;
+    for (std::size_t k = 1; k <= l / 2; ++k) binomial *= static_cast<double>(2 * k - 1) / static_cast<double>(2 * k);
+    const double sign = (l / 2) % 2 == 1 ? 1 : -1;
+    return sign * 2 * k_pi * binomial / static_cast<double>((l + 2) * (l - 1));
+}
+
+Harmonics::Harmonics(std::size_t degree) : degree_(degree) {
+    double first = std::sqrt(1 / (4 * k_pi));
+    for (std::size_t m = 0; m <= degree; ++m) {
+        // Q_m^m = sqrt(2) sqrt((2m + 1) / (4 pi (2m)!)) (2m - 1)!!, from one order to the next.
+        if (m > 0)
+            first *= std::sqrt((m == 1 ? 2.0 : 1.0) * static_cast<double>(2 * m + 1) / static_cast<double>(2 * m));
+        table_.push_back(static_cast<float>(first));
+        const auto mm = static_cast<double>(m * m);
+        for (std::size_t l = m + 1; l <= degree; ++l) {
+            const auto ll = static_cast<double>(l * l), below = static_cast<double>((l - 1) * (l - 1));
+            const double a = std::sqrt((4 * ll - 1) / (ll - mm));
+            const double b = std::sqrt(std::max(0.0, below - mm) / (4 * below - 1 > 0 ? 4 * below - 1 : 1));
+            table_.push_back(static_cast<float>(a));
+            table_.push_back(static_cast<float>(a * b));
+        }
+    }
+}
+
+void Harmonics::values(DirectionView block, float* rows) const {
+    HWY_DYNAMIC_DISPATCH(Values)(degree_, table_.data(), block, rows);
+}
+
+void Harmonics::sum(std::span<const Rgb> c, DirectionView directions, MutableColourView out) const {
+    assert(c.size() == size() && directions.size == out.size);
+    HWY_DYNAMIC_DISPATCH(Sum)(degree_, table_.data(), c.data(), directions, out);
+}
+
+std::vector<double> values(std::size_t degree, double x, double y, double z) {
+    const double theta = std::atan2(std::hypot(x, y), z), phi = std::atan2(y, x);
+    std::vector<double> result(coefficient_count(degree));
+    for (std::size_t l = 0; l <= degree; ++l)
+        for (std::size_t m = 0; m <= l; ++m) {
+            // sph_legendre carries the Condon-Shortley sign, which all-plus harmonics leave out.
+            const double legendre = std::sph_legendre(static_cast<unsigned>(l), static_cast<unsigned>(m), theta) *
+                                    (m % 2 == 1 ? -1 : 1) * (m > 0 ? std::sqrt(2.0) : 1.0);
+            result[l * l + l + m] = legendre * std::cos(static_cast<double>(m) * phi);
+            if (m > 0) result[l * l + l - m] = legendre * std::sin(static_cast<double>(m) * phi);
+        }
+    return result;
+}
+
+Matrix rotation_matrix(const Rotation& r, std::size_t l) {
+    // R_ij = integral of Y_i(R w) Y_j(w): a polynomial of degree 2l, so that l + 1 heights are exact.
+    const std::size_t size = 2 * l + 1, first = l * l;
+    const GaussLegendre heights(l + 1);
+    const std::size_t azimuths = 2 * l + 1;
+    Matrix matrix(size * size);
+    for (std::size_t h = 0; h < heights.nodes.size(); ++h)
+        for (std::size_t a = 0; a < azimuths; ++a) {
+            const double z = heights.nodes[h], s = std::sqrt(1 - z * z);
+            const double phi = 2 * k_pi * static_cast<double>(a) / static_cast<double>(azimuths);
+            const double x = s * std::cos(phi), y = s * std::sin(phi);
+            const auto row = [&](const Vec3& v) { return v.x * x + v.y * y + v.z * z; };
+            const auto from = values(l, x, y, z), to = values(l, row(r[0]), row(r[1]), row(r[2]));
+            const double weight = heights.weights[h] * 2 * k_pi / static_cast<double>(azimuths);
+            for (std::size_t i = 0; i < size; ++i)
+                for (std::size_t j = 0; j < size; ++j) matrix[i * size + j] += weight * to[first + i] * from[first + j];
+        }
+    return matrix;
+}
+
+namespace {
+
+void rotate_degree_1(const Rotation& r, std::span<const Rgb> c, std::span<Rgb> out) {
+    // Y_1 = sqrt(3 / 4 pi) (y, z, x).
+    const auto turn = [&](auto channel) { return rotate(r, Vec3{channel(c[2]), channel(c[0]), channel(c[1])}); };
+    const Vec3 red = turn([](Rgb v) { return v.r; }), green = turn([](Rgb v) { return v.g; }),
+               blue = turn([](Rgb v) { return v.b; });
+    out[0] = {red.y, green.y, blue.y};
+    out[1] = {red.z, green.z, blue.z};
+    out[2] = {red.x, green.x, blue.x};
+}
+
+/// Band 2 of one channel as the traceless symmetric M of L_2(w) = w^T M w, turned to R M R^T.
+std::array<double, 5> rotate_quadratic_form(const Rotation& r, const std::array<double, 5>& c) {
+    const double k = std::sqrt(15 / (4 * k_pi)), q = std::sqrt(5 / (16 * k_pi));
+    const double xy = k * c[0] / 2, yz = k * c[1] / 2, xz = k * c[3] / 2;
+    const double m[3][3] = {
+        {-q * c[2] + k * c[4] / 2, xy, xz}, {xy, -q * c[2] - k * c[4] / 2, yz}, {xz, yz, 2 * q * c[2]}};
+    const auto form = [&](Vec3 a, Vec3 b) {
+        const double u[3] = {a.x, a.y, a.z}, v[3] = {b.x, b.y, b.z};
+        double sum = 0;
+        for (int i = 0; i < 3; ++i)
+            for (int j = 0; j < 3; ++j) sum += u[i] * m[i][j] * v[j];
+        return sum;
+    };
+    return {2 * form(r[0], r[1]) / k, 2 * form(r[1], r[2]) / k, form(r[2], r[2]) / (2 * q), 2 * form(r[0], r[2]) / k,
+            (form(r[0], r[0]) - form(r[1], r[1])) / k};
+}
+
+void rotate_degree_2(const Rotation& r, std::span<const Rgb> c, std::span<Rgb> out) {
+    std::array<double, 5> red{}, green{}, blue{};
+    for (std::size_t i = 0; i < 5; ++i) {
+        red[i] = c[i].r;
+        green[i] = c[i].g;
+        blue[i] = c[i].b;
+    }
+    red = rotate_quadratic_form(r, red);
+    green = rotate_quadratic_form(r, green);
+    blue = rotate_quadratic_form(r, blue);
+    for (std::size_t i = 0; i < 5; ++i)
+        out[i] = {static_cast<float>(red[i]), static_cast<float>(green[i]), static_cast<float>(blue[i])};
+}
+
+}  // namespace
+
+std::vector<Rgb> rotated(const Rotation& r, std::span<const Rgb> c) {
+    std::vector<Rgb> result(c.size());
+    for (std::size_t l = 0; l * l < c.size(); ++l) {
+        const std::size_t size = 2 * l + 1;
+        const auto from = c.subspan(l * l, size);
+        const auto to = std::span(result).subspan(l * l, size);
+        if (l == 0) {
+            to[0] = from[0];
+        } else if (l == 1) {
+            rotate_degree_1(r, from, to);
+        } else if (l == 2) {
+            rotate_degree_2(r, from, to);
+        } else {
+            const Matrix matrix = rotation_matrix(r, l);
+            for (std::size_t i = 0; i < size; ++i)
+                for (std::size_t j = 0; j < size; ++j)
+                    to[i] = to[i] + from[j] * static_cast<float>(matrix[i * size + j]);
+        }
+    }
+    return result;
+}
+
+}  // namespace lobelia::harmonics
+#endif

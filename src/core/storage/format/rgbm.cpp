@@ -1,0 +1,50 @@
+// RGBM, many texels at once.
+#include "core/storage/format/rgbm.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "core/storage/format/rgbm.cpp"
+#include <hwy/foreach_target.h>  // NOLINT: must precede highway.h
+#include <hwy/highway.h>
+// NOLINTNEXTLINE: after highway.h
+#include "core/storage/format/words-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lobelia::texels::HWY_NAMESPACE {
+
+void EncodeRgbm(const float* const* in, std::size_t count, std::int32_t* out) {
+    const D d;
+    for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
+        const Components c = cut(in, i, 1);
+        const V factor = hn::Max(hn::Ceil(hn::Mul(c.largest(), hn::Set(d, 255.0f))), hn::Set(d, 1.0f));
+        const V steps = hn::Div(hn::Set(d, 65025.0f), factor);
+        hn::StoreU(word_of<8>(c, steps, hn::ConvertTo(I(), factor)), I(), out + i);
+    }
+}
+
+void DecodeRgbm(const std::uint32_t* in, std::size_t count, float* const* out) {
+    const D d;
+    for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
+        const VU packed = hn::LoadU(U(), in + i);
+        const V factor = hn::ConvertTo(d, hn::BitCast(I(), hn::ShiftRight<24>(packed)));
+        store_components<8>(packed, hn::Div(factor, hn::Set(d, 65025.0f)), out, i);
+    }
+}
+
+}  // namespace lobelia::texels::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace lobelia::texels {
+
+HWY_EXPORT(EncodeRgbm);
+HWY_EXPORT(DecodeRgbm);
+
+void encode_rgbm(const float* const* in, std::size_t count, std::byte* out) {
+    HWY_DYNAMIC_DISPATCH(EncodeRgbm)(in, count, reinterpret_cast<std::int32_t*>(out));
+}
+void decode_rgbm(const std::byte* bytes, std::size_t count, float* const* out) {
+    HWY_DYNAMIC_DISPATCH(DecodeRgbm)(reinterpret_cast<const std::uint32_t*>(bytes), count, out);
+}
+
+}  // namespace lobelia::texels
+#endif

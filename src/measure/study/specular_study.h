@@ -1,0 +1,24 @@
+// The study of glossy reflection from spherical Gaussians and spherical harmonics.
+#pragma once
+
+#include "lobelia/specular.h"
+#include "measure/study/study.h"
+
+namespace lobelia {
+
+/// Points over the sphere, each seen at one angle to its normal from one side or another, all of one alpha.
+struct PointsAtAngle {
+    Directions normals, views;
+    std::vector<float> alphas;
+    PointsAtAngle(std::size_t count, float cosine, float alpha);
+    [[nodiscard]] SpecularPoints view() const { return {normals, views, alphas}; }
+};
+
+/// Root mean square of the difference between two readings of the same coefficients, over that of `truth`; of green.
+[[nodiscard]] double relative_gloss_error(const SpecularEvaluator& evaluator, const SpecularEvaluator& truth,
+                                          std::span<const Rgb> c, const PointsAtAngle& points);
+
+/// Error tables of every reading over roughness, view angle and sharpness, curves, and lit spheres.
+[[nodiscard]] Study study_specular();
+
+}  // namespace lobelia

@@ -1,0 +1,22 @@
+// The list of studies of formulae.
+#include "measure/study/studies.h"
+
+#include <array>
+
+#include "measure/study/sg_study.h"
+#include "measure/study/specular_study.h"
+
+namespace lobelia {
+namespace {
+
+constexpr std::array k_studies = {
+    StudyEntry{"irradiance", "Irradiance formulae of spherical Gaussians against the exact integral",
+               study_sg_irradiance},
+    StudyEntry{"specular", "Glossy reflection of lobes and harmonics against rays", study_specular},
+};
+
+}  // namespace
+
+std::span<const StudyEntry> studies() { return k_studies; }
+
+}  // namespace lobelia

@@ -1,0 +1,117 @@
+// Diffuse and GGX reflection.
+#include "trace/material.h"
+
+#include <cmath>
+
+#include "lobelia/planes.h"
+#include "trace/directions.h"
+
+namespace lobelia {
+namespace {
+
+constexpr auto k_pi_f = static_cast<float>(k_pi);
+/// Smoother than this counts as this: a mirror's highlight must have a width for light to be aimed into it.
+constexpr float k_least_width = 1e-3f;
+
+/// Schlick's blend from 0 (along the half vector) to 1 (at 90 degrees).
+float schlick(float cosine) {
+    const float m = std::clamp(1 - cosine, 0.0f, 1.0f), m2 = m * m;
+    return m2 * m2 * m;
+}
+
+Rgb layer_fresnel(const Reflectance& s, float cosine) {
+    const float k = schlick(cosine);
+    return s.layer_0 * (1 - k) + Rgb{k, k, k} * s.layer_90;
+}
+/// What is left for the base.
+float left(const Reflectance& s, float cosine) {
+    const float k = schlick(cosine);
+    return 1 - (s.taken_0 * (1 - k) + s.taken_90 * k);
+}
+
+/// GGX's distribution of normals; from the sine, so that it keeps its digits for narrow lobes.
+float distribution(float width, Vec3 h) {
+    const float w2 = width * width, d = w2 * h.z * h.z + h.x * h.x + h.y * h.y;
+    return w2 / (k_pi_f * d * d);
+}
+/// Smith's Lambda of a direction.
+float lambda(float width, Vec3 v) {
+    const float tan2 = (v.x * v.x + v.y * v.y) / (v.z * v.z);
+    return 0.5f * (std::sqrt(1 + width * width * tan2) - 1);
+}
+
+/// A normal visible from wo (Heitz 2018): stretch, sample the projected hemisphere, unstretch.
+Vec3 visible_normal(float width, Vec3 wo, Pair point) {
+    const Vec3 stretched = normalize(Vec3{width * wo.x, width * wo.y, wo.z});
+    const float flat = stretched.x * stretched.x + stretched.y * stretched.y;
+    const Vec3 t1 = flat > 0 ? Vec3{-stretched.y, stretched.x, 0} * (1 / std::sqrt(flat)) : Vec3{1, 0, 0};
+    const Vec3 t2 = cross(stretched, t1);
+    const float r = std::sqrt(point.a), s = 0.5f * (1 + stretched.z);
+    const auto [c, sn] = cos_sin_turns(point.b);
+    const float p1 = r * c, p2 = (1 - s) * std::sqrt(std::max(0.0f, 1 - p1 * p1)) + s * r * sn;
+    const Vec3 h = t1 * p1 + t2 * p2 + stretched * std::sqrt(std::max(0.0f, 1 - p1 * p1 - p2 * p2));
+    return normalize(Vec3{width * h.x, width * h.y, std::max(1e-6f, h.z)});
+}
+
+/// Probability of choosing the layer: its share of the light at this angle, never less than a tenth of either.
+float layer_share(const Reflectance& s, Vec3 wo) {
+    if (!s.has_layer) return 0;
+    if (is_black(s.diffuse)) return 1;
+    const float layer = largest(layer_fresnel(s, wo.z)), base = largest(s.diffuse) * left(s, wo.z);
+    return std::clamp(layer / (layer + base), 0.1f, 0.9f);
+}
+
+}  // namespace
+
+Reflectance make_reflectance(const Material& material, Rgb base, float metallic, float roughness) {
+    if (material.unlit) return {};
+    const float ratio = (material.ior - 1) / (material.ior + 1), normal = ratio * ratio;
+    const auto dielectric = [&](float tint) { return std::min(normal * tint, 1.0f) * material.specular; };
+    const Rgb coat{dielectric(material.specular_color.r), dielectric(material.specular_color.g),
+                   dielectric(material.specular_color.b)};
+    Reflectance s;
+    s.diffuse = base * (1 - metallic);
+    s.layer_0 = base * metallic + coat * (1 - metallic);
+    s.layer_90 = metallic + material.specular * (1 - metallic);
+    s.taken_0 = largest(coat);
+    s.taken_90 = material.specular;
+    s.width = std::max(k_least_width, roughness * roughness);
+    s.has_layer = !is_black(s.layer_0) || s.layer_90 > 0;
+    return s;
+}
+
+Rgb base_albedo(const Reflectance& s, Vec3 wo, Vec3 wi) {
+    return s.has_layer ? s.diffuse * left(s, dot(wi, normalize(wo + wi))) : s.diffuse;
+}
+
+Reflected reflect(const Reflectance& s, Vec3 wo, Vec3 wi) {
+    if (wi.z <= 0 || wo.z <= 0) return {};
+    const float base = wi.z * k_over_pi;
+    if (!s.has_layer) return {s.diffuse * base, base};
+    // Layer: D G F / (4 cos cos), times the cosine of wi; visible normals have the density D / (4 cos (1 + Lambda)).
+    const Vec3 h = normalize(wo + wi);
+    const float cosine = dot(wi, h), seen = 1 + lambda(s.width, wo);
+    const float d = distribution(s.width, h) / (4 * wo.z), share = layer_share(s, wo);
+    const Rgb value =
+        s.diffuse * (left(s, cosine) * base) + layer_fresnel(s, cosine) * (d / (seen + lambda(s.width, wi)));
+    return {value, share * d / seen + (1 - share) * base};
+}
+
+Scattered scatter(const Reflectance& s, Vec3 wo, Pair point, float choice) {
+    if (!s.has_layer) {
+        const Vec3 wi = cosine_direction(point);
+        return {wi, s.diffuse, wi.z * k_over_pi};
+    }
+    Vec3 wi;
+    if (choice < layer_share(s, wo)) {
+        const Vec3 h = visible_normal(s.width, wo, point);
+        wi = h * (2 * dot(wo, h)) - wo;
+    } else {
+        wi = cosine_direction(point);
+    }
+    const auto [value, pdf] = reflect(s, wo, wi);
+    if (!(pdf > 0)) return {};
+    return {wi, value * (1 / pdf), pdf};
+}
+
+}  // namespace lobelia

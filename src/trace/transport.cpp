@@ -1,0 +1,191 @@
+// Waves of paths, bounce by bounce, with the light sources aimed at from every surface.
+// Kajiya 1986; Arvo and Kirk 1990 (Russian roulette); Veach 1997 (balance heuristic).
+#include "trace/transport.h"
+
+#include <cassert>
+#include <limits>
+
+namespace lobelia {
+namespace {
+
+constexpr float k_infinite = std::numeric_limits<float>::infinity();
+/// A front this much farther away, relatively, lies on the same spot as the back that was met.
+constexpr float k_same_spot = 1e-5f;
+
+}  // namespace
+
+PathTracer::Implementation::Implementation(const Scene& s, const World& w, const PathOptions& o)
+    : scene(&s), world(&w), options(o), surfaces(s, w), rays(w, surfaces.kinds(), surfaces), lights(s, surfaces, o) {
+    assert(o.bounces >= 0);
+}
+
+/// Finds the surface that stops the path where the first one does not; false where there is none. A receiver must not
+/// see backs: they are reported, and what the path finds beyond them is for pictures alone.
+bool PathTracer::Implementation::stop(const Path& path, std::uint32_t salt, int depth, RayHit& hit, Incident& out,
+                                      Scratch& scratch) const {
+    if (hit.distance == k_infinite) return false;
+    const auto shows_back = [&] {
+        return (rays.kind(hit.triangle) & k_one_sided) != 0 &&
+               dot(surfaces.facet(hit.triangle).normal, path.direction) > 0;
+    };
+    const auto look_again = [&](Backs backs) {
+        hit = rays.closest_stop(path.origin, path.direction, salt, backs);
+        ++scratch.rays;
+        return hit.distance != k_infinite;
+    };
+    if (rays.kind(hit.triangle) == 0) return true;
+    const bool clear =
+        (rays.kind(hit.triangle) & k_transparent) != 0 && surfaces.passes(hit.triangle, hit.u, hit.v, salt);
+    if (!clear && !shows_back()) return true;
+    if (depth > 0) return look_again(Backs::pass);
+
+    if (clear && !look_again(Backs::stop)) return false;
+    if (!shows_back()) return true;
+    const float first = hit.distance;
+    const bool stopped = look_again(Backs::pass);
+    if (hit.distance > first * (1 + k_same_spot)) {
+        out.back_face = true;
+        out.distance = first;
+    }
+    return stopped;
+}
+
+/// Adds light that the path met by chance, weighted against having been aimed at (balance heuristic).
+void PathTracer::Implementation::add_emitted(const Path& path, int depth, const SkyLight& light, Incident& out) const {
+    if (depth == 0) {
+        out.emitted = light.radiance;
+        out.source_pdf = light.pdf;
+    } else {
+        const float weight = path.pdf / (path.pdf + light.pdf);
+        out.scattered = out.scattered + product(path.throughput, light.radiance) * weight;
+    }
+}
+
+void PathTracer::Implementation::meet_emission(const Path& path, int depth, const RayHit& hit, Incident& out) const {
+    const Facet& f = surfaces.facet(hit.triangle);
+    if (f.emitter == k_no_emitter) return;
+    const float cosine = std::abs(dot(f.normal, path.direction));
+    const Vantage from{path.origin, path.normal};
+    const float pdf = cosine > 0 ? lights.triangle_pdf(from, f.emitter, hit.distance, cosine) : 0;
+    add_emitted(path, depth, {surfaces.emission(hit.triangle, hit.u, hit.v), pdf}, out);
+}
+
+/// Aims at one light source; false where nothing can come from it.
+bool PathTracer::Implementation::aim(const Path& path, const SurfacePoint& at, const Axes& axes, const Draws& draws,
+                                     ShadowRay& shadow) const {
+    const LightSample light = lights.sample({at.origin, at.normal}, draws.light_choice, draws.light);
+    if (is_black(light.irradiance) || dot(light.direction, at.face) <= 0) return false;
+    const Vec3 wo = axes.local(path.direction * -1.0f), wi = axes.local(light.direction);
+    const auto [reflection, pdf] = reflect(at.reflectance, wo, wi);
+    if (is_black(reflection)) return false;
+    const float weight = light.pdf > 0 ? light.pdf / (light.pdf + pdf) : 1;
+    shadow.origin = at.origin;
+    shadow.direction = light.direction;
+    shadow.distance = light.distance;
+    shadow.radiance = product(path.throughput, product(reflection, light.irradiance)) * weight;
+    shadow.out = path.out;
+    return true;
+}
+
+/// Sends the path on in a new direction; false where it ends.
+bool PathTracer::Implementation::scatter_on(Path& path, const SurfacePoint& at, const Axes& axes,
+                                            const Draws& draws) const {
+    const Scattered s = scatter(at.reflectance, axes.local(path.direction * -1.0f), draws.scatter, draws.layer);
+    if (!(s.pdf > 0)) return false;
+    const Vec3 direction = axes.world(s.wi);
+    if (dot(direction, at.face) <= 0) return false;
+    path.throughput = product(path.throughput, s.weight);
+    const float strength = largest(path.throughput);
+    if (!(strength > 0)) return false;
+
+    // Russian roulette: weak paths end by chance, the others carry their light.
+    if (options.roulette == Switch::on && strength < 1) {
+        if (draws.roulette >= strength) return false;
+        path.throughput = path.throughput * (1 / strength);
+    }
+    path.origin = at.origin;
+    path.direction = direction;
+    path.normal = at.normal;
+    path.pdf = s.pdf;
+    return true;
+}
+
+void PathTracer::Implementation::draw(std::size_t count, int depth, Scratch& scratch) const {
+    const std::uint32_t first = k_first_surface + k_for_each_surface * static_cast<std::uint32_t>(depth);
+    scratch.counters.draw(count, first + k_scatter, scratch.scatter);
+    scratch.counters.draw(count, first + k_light_point, scratch.light);
+    scratch.counters.draw(count, first + k_choice, scratch.choice);
+    if (surfaces.layered()) scratch.counters.draw(count, first + k_layer, scratch.layer);
+}
+
+/// Lets every path meet what its ray has hit, and take up what shines there; returns how many have a surface to scatter
+/// from, at the front of the scratch.
+std::size_t PathTracer::Implementation::arrive(std::span<Incident> out, std::size_t count, int depth,
+                                               Scratch& scratch) const {
+    std::size_t arrived = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const Path& path = scratch.paths[i];
+        RayHit hit = scratch.hits[i];
+        Incident& result = out[path.out];
+        const std::uint32_t salt = scratch.counters.salt(i, 2 * static_cast<std::uint32_t>(depth));
+        const bool stopped = stop(path, salt, depth, hit, result, scratch);
+        if (depth == 0 && !result.back_face) result.distance = hit.distance;
+        if (!stopped) {
+            add_emitted(path, depth, lights.sky({path.origin, path.normal}, path.direction), result);
+            continue;
+        }
+        meet_emission(path, depth, hit, result);
+        if (depth == options.bounces) continue;
+        scratch.paths[arrived] = path;
+        scratch.hits[arrived] = hit;
+        scratch.counters.move(i, arrived++);
+    }
+    return arrived;
+}
+
+/// Aims at a light source from every surface, and sends the paths on; returns how many go on, at the front.
+std::size_t PathTracer::Implementation::depart(std::size_t count, int depth, Scratch& scratch) const {
+    std::size_t alive = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        Path path = scratch.paths[i];
+        const RayHit& hit = scratch.hits[i];
+        const SurfacePoint at = surfaces.point(hit.triangle, hit.u, hit.v, path.direction);
+        const Axes axes(at.normal);
+        const Draws draws{scratch.scatter[i], scratch.light[i], scratch.choice.a[i], scratch.choice.b[i],
+                          scratch.layer.a[i]};
+        ShadowRay& shadow = scratch.shadows[scratch.shadow_count];
+        if (aim(path, at, axes, draws, shadow)) {
+            shadow.salt = scratch.counters.salt(i, 2 * static_cast<std::uint32_t>(depth) + 1);
+            ++scratch.shadow_count;
+        }
+        if (!scatter_on(path, at, axes, draws)) continue;
+        scratch.paths[alive] = path;
+        scratch.counters.move(i, alive++);
+    }
+    return alive;
+}
+
+/// Adds the light that was aimed at and is not hidden.
+void PathTracer::Implementation::light_up(std::span<Incident> out, Scratch& scratch) const {
+    for (std::size_t i = 0; i < scratch.shadow_count; ++i) {
+        const ShadowRay& s = scratch.shadows[i];
+        if (!rays.stopped(s.origin, s.direction, s.distance, s.salt, Backs::pass))
+            out[s.out].scattered = out[s.out].scattered + s.radiance;
+    }
+    scratch.rays += scratch.shadow_count;
+    scratch.shadow_count = 0;
+}
+
+void PathTracer::Implementation::follow(std::span<Incident> out, std::size_t count, Scratch& scratch) const {
+    for (int depth = 0; count > 0; ++depth) {
+        for (std::size_t i = 0; i < count; ++i)
+            scratch.hits[i] = rays.closest(scratch.paths[i].origin, scratch.paths[i].direction, k_infinite);
+        scratch.rays += count;
+        count = arrive(out, count, depth, scratch);
+        draw(count, depth, scratch);
+        count = depart(count, depth, scratch);
+        light_up(out, scratch);
+    }
+}
+
+}  // namespace lobelia

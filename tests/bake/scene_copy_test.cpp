@@ -1,0 +1,124 @@
+// The copy of the scene that goes with a bake: its lightmap UVs are the pages', and nothing else has changed.
+#include <gtest/gtest.h>
+
+#include "bake/write/bake_folder.h"
+#include "bake/write/scene_copy.h"
+#include "folders.h"
+#include "io/read_image.h"
+#include "scene/embedded.h"
+#include "scene/gltf_read.h"
+
+namespace lobelia {
+namespace {
+
+/// An empty bake of a scene, its objects packed.
+struct Packed {
+    explicit Packed(Scene s) : scene(std::move(s)), world(make_world(scene)) {
+        BakeOptions options;
+        options.atlas.width = 96;
+        options.atlas.height = 80;
+        options.atlas.layout = AtlasOptions::Layout::packed;
+        const auto atlas = Atlas::make(world, options.atlas);
+        EXPECT_TRUE(atlas);
+        bake.manifest = make_manifest(scene, *atlas, options, {});
+        for (std::size_t i = 0; i < atlas->pages(); ++i) {
+            bake.pages.emplace_back(96, 80, bake.layout().channels());
+            bake.normals.emplace_back(bake.pages.back().size());
+        }
+    }
+    Scene scene;
+    World world;
+    Bake bake;
+};
+
+TEST(SceneCopy, LightmapUvsAreThePages) {
+    const test::TestFolder folder("scene-copy");
+    const Packed packed(cornell_scene());
+    ASSERT_TRUE(
+        write_bake(folder.path(), packed.bake, {.storages = std::vector<std::string>{}, .scene = &packed.scene}));
+    const auto manifest = read_manifest(folder.path());
+    ASSERT_TRUE(manifest && manifest->scene);
+    EXPECT_TRUE(manifest->warnings.empty());
+    EXPECT_FALSE(manifest->environment);
+    const auto copy = read_gltf(folder.path() / *manifest->scene);
+    ASSERT_TRUE(copy) << copy.error().message;
+
+    // The same texel from the original's uv by the manifest's scale and offset as from the copy's uv alone.
+    const World there = make_world(copy->scene);
+    ASSERT_EQ(there.triangles.size(), packed.world.triangles.size());
+    for (std::size_t t = 0; t < there.triangles.size(); ++t) {
+        const std::size_t object = packed.world.object[t];
+        ASSERT_EQ(there.object[t], object);
+        const AtlasPlacement own = manifest->objects[object].placement, copied = placement_in_copy(*manifest, object);
+        EXPECT_EQ(own.page, copied.page);
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::uint32_t a = packed.world.triangles[t][k], b = there.triangles[t][k];
+            EXPECT_EQ(packed.world.positions[a], there.positions[b]);
+            const Vec2 u = packed.world.lightmap_uv[a], v = there.lightmap_uv[b];
+            EXPECT_NEAR(own.scale.x * u.x + own.offset.x, copied.scale.x * v.x + copied.offset.x, 2e-5f);
+            EXPECT_NEAR(own.scale.y * u.y + own.offset.y, copied.scale.y * v.y + copied.offset.y, 2e-5f);
+        }
+    }
+    const std::string bytes = test::contents(folder.path() / *manifest->scene);
+    EXPECT_NE(bytes.find(R"({"lobelia_lightmap":{)"), std::string::npos);
+    EXPECT_NE(bytes.find(R"("file":"page-0.exr")"), std::string::npos);
+}
+
+TEST(SceneCopy, TheEnvironmentGoesWithIt) {
+    const test::TestFolder folder("scene-environment");
+    Packed packed(cornell_scene());
+    packed.scene.environment = Image(8, 4);
+    packed.scene.environment->at(3, 2) = {1, 2, 3e-5f};
+    ASSERT_TRUE(write_bake(folder.path(), packed.bake, {.scene = &packed.scene}));
+    const auto manifest = read_manifest(folder.path());
+    ASSERT_TRUE(manifest && manifest->environment);
+    const auto image = read_environment(folder.path() / *manifest->environment);
+    ASSERT_TRUE(image);
+    EXPECT_EQ(image->image.pixels, packed.scene.environment->pixels);
+}
+
+TEST(SceneCopy, WhatGltfCannotHoldCostsTheCopyNotTheBake) {
+    const test::TestFolder folder("scene-refused");
+    Packed packed(cornell_scene());
+    packed.scene.textures.push_back({"t", 1, 1, {{1, 2, 3, 4}}});
+    packed.scene.materials[0].base_color_texture = TextureUse{0, 0, {{{1, 0.5f, 0}, {0, 1, 0}}}};
+    ASSERT_TRUE(write_bake(folder.path(), packed.bake, {.scene = &packed.scene}));
+    const auto read = read_bake(folder.path());
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_FALSE(read->manifest.scene);
+    ASSERT_EQ(read->manifest.warnings.size(), 1u);
+    EXPECT_NE(read->manifest.warnings[0].find("there is no copy of the scene: "), std::string::npos);
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "scene.glb"));
+}
+
+TEST(PlainBake, HasNoCoefficientsAndNoTextures) {
+    const test::TestFolder folder("plain-bake");
+    const Scene scene = cornell_scene();
+    const World world = make_world(scene);
+    BakeOptions options;
+    options.codec.clear();
+    options.atlas.width = options.atlas.height = 64;
+    const auto atlas = Atlas::make(world, options.atlas);
+    ASSERT_TRUE(atlas);
+    Bake bake;
+    bake.manifest = make_manifest(scene, *atlas, options, {});
+    bake.pages.emplace_back(64, 64, bake.layout().channels());
+    bake.normals.emplace_back(64 * 64);
+    ASSERT_TRUE(write_bake(folder.path(), bake));
+    EXPECT_EQ(folder.entries(), 2u);
+    auto read = read_bake(folder.path());
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_TRUE(read->manifest.options.codec.empty());
+    EXPECT_EQ(read->pages[0].planes.size(), 4u);
+
+    std::string text = test::contents(folder.path() / k_manifest_name);
+    const std::string none = "\"coefficients\": 0";
+    test::overwrite(folder.path() / k_manifest_name, text.replace(text.find(none), none.size(), "\"coefficients\": 4"));
+    read = read_bake(folder.path());
+    ASSERT_FALSE(read);
+    EXPECT_NE(read.error().message.find("codec.coefficients: there is no codec"), std::string::npos)
+        << read.error().message;
+}
+
+}  // namespace
+}  // namespace lobelia

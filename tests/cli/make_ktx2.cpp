@@ -1,0 +1,84 @@
+// Writes a texture of every pixel format, and beside each the numbers that it should hold as plain float32 (NAME.f32,
+// channels side by side) and its bytes (NAME.bin), for readers that are not ours; and a bake in every storage that
+// suits it. make_ktx2 FOLDER
+#include <cstdio>
+
+#include "bake_files.h"
+#include "io/write_ktx2.h"
+#include "lobelia/storage.h"
+
+namespace lobelia {
+namespace {
+
+void require(const Status& status) {
+    if (status) return;
+    std::fprintf(stderr, "%s\n", status.error().message.c_str());
+    std::exit(1);
+}
+
+void write(const std::filesystem::path& path, std::span<const std::byte> bytes) {
+    auto file = StagedFile::create(path).value();
+    require(file.write(bytes));
+    require(file.commit());
+}
+
+constexpr std::size_t k_width = 21, k_height = 34;
+
+/// Noise over many magnitudes, within the format's limits; and what lies beyond them.
+std::vector<float> some_values(const FormatInfo& format, std::mt19937& generator) {
+    std::vector<float> values(k_width * k_height);
+    const double highest = std::min(format.highest, 1e6), lowest = std::max(format.lowest, -1e6);
+    for (float& v : values) {
+        const double share = static_cast<double>(generator()) / 4294967296.0;
+        v = static_cast<float>(lowest < 0 && generator() % 2 ? lowest * share : highest * share);
+        if (highest > 1) v = std::ldexp(v, -static_cast<int>(generator() % 24));
+    }
+    if (highest == 1) values[0] = 1.5f;
+    if (lowest == 0) values[1] = -0.5f;
+    return values;
+}
+
+void make_texture(const std::filesystem::path& folder, PixelFormat pixel_format) {
+    const FormatInfo& format = info(pixel_format);
+    std::mt19937 generator(7);
+    std::vector<std::vector<float>> channels;
+    std::vector<const float*> pointers;
+    for (std::size_t k = 0; k < format.channels; ++k) channels.push_back(some_values(format, generator));
+    for (const auto& channel : channels) pointers.push_back(channel.data());
+    std::vector<float> side_by_side;
+    for (std::size_t i = 0; i < k_width * k_height; ++i)
+        for (const auto& channel : channels) side_by_side.push_back(channel[i]);
+
+    std::vector<std::byte> data(byte_size(pixel_format, k_width, k_height));
+    encode_texels(pixel_format, k_width, k_height, pointers, data);
+    const std::string name(format.name);
+    auto file = StagedFile::create(folder / (name + ".ktx2")).value();
+    require(write_ktx2(file, {pixel_format, k_width, k_height, data, {{"lobelia.format", name}, {"a", "text"}}}));
+    require(file.commit());
+    write(folder / (name + ".bin"), data);
+    write(folder / (name + ".f32"), std::as_bytes(std::span(side_by_side)));
+}
+
+/// Every storage that suits the codec; numbers that bytes and halves hold exactly where they can.
+void make_bake(const std::filesystem::path& folder, const std::string& codec) {
+    const Bake bake = test::some_bake(codec);
+    const auto traits = coefficient_traits(*make_codec(codec)->encoder());
+    WriteBakeOptions options;
+    options.storages.emplace();
+    for (const Storage& storage : storages())
+        if (suits(storage, traits)) options.storages->emplace_back(storage.name);
+    require(write_bake(folder, bake, options));
+}
+
+}  // namespace
+}  // namespace lobelia
+
+int main(int argc, char** argv) {
+    using lobelia::PixelFormat;
+    if (argc != 2) return 2;
+    for (int i = 0; i <= static_cast<int>(PixelFormat::bc6h_signed); ++i)
+        lobelia::make_texture(argv[1], static_cast<PixelFormat>(i));
+    lobelia::make_bake(std::filesystem::path(argv[1]) / "sh1", "sh1/moments/convolution");
+    lobelia::make_bake(std::filesystem::path(argv[1]) / "sg12", "sg12/nnls/exact");
+    return 0;
+}
