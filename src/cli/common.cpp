@@ -119,15 +119,6 @@ Status check_file(const std::filesystem::path& file) {
     return Done{};
 }
 
-Status write_into_folder(const std::filesystem::path& folder, std::span<const FileContent> files) {
-    std::error_code code;
-    const bool made = std::filesystem::create_directories(folder, code);
-    if (code) return Error{folder.string() + ": cannot be made a folder: " + code.message()};
-    auto status = write_files_together(files);
-    if (!status && made) std::filesystem::remove(folder, code);
-    return status;
-}
-
 void complain(const std::string& line) {
     std::fputs((line + "\n").c_str(), stderr);
     std::fflush(stderr);

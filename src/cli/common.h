@@ -56,9 +56,6 @@ void add_sampling_options(CLI::App& command, SamplingOptions& options);
 /// long work.
 [[nodiscard]] Status check_file(const std::filesystem::path& file);
 
-/// Makes the folder if it is missing, and writes all files or none; a folder made in vain is removed again.
-[[nodiscard]] Status write_into_folder(const std::filesystem::path& folder, std::span<const FileContent> files);
-
 /// A line on stderr; where nobody listens any more, it is lost and nothing else changes.
 void complain(const std::string& line);
 

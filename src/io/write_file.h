@@ -11,8 +11,8 @@
 namespace lobelia {
 
 /// Writes `bytes` to `path` under a temporary name in the same folder, flushes them to the disk and renames; on failure
-/// what was there before is untouched and the temporary is gone. Links are followed, and what is no regular file (a
-/// pipe, /dev/stdout) is written to directly. Errors name the file and the cause: no such folder, no permission, full.
+/// the old content is untouched and the temporary is gone. Links are followed; pipes and devices (/dev/stdout) are
+/// written to directly. Errors name the file and the cause: no such folder, no permission, full.
 [[nodiscard]] Status write_file_atomically(const std::filesystem::path& path, std::span<const std::byte> bytes);
 [[nodiscard]] Status write_file_atomically(const std::filesystem::path& path, std::string_view text);
 
@@ -24,5 +24,7 @@ struct FileContent {
 /// Writes several files so that none changes unless all could be written: each is complete under its temporary name
 /// before the first is renamed.
 [[nodiscard]] Status write_files_together(std::span<const FileContent> files);
+/// Writes all files or none into `folder`, which is created if it is missing, and removed again after a failure.
+[[nodiscard]] Status write_into_folder(const std::filesystem::path& folder, std::span<const FileContent> files);
 
 }  // namespace lobelia

@@ -9,6 +9,7 @@
 #include "bake/gather/sites.h"
 #include "bake/session/checkpoint.h"
 #include "bake/session/plan.h"
+#include "io/output_folder.h"
 
 namespace lobelia {
 namespace {
@@ -129,19 +130,21 @@ Status merge_shards(const Baker& bake, std::span<const fs::path> checkpoints) {
     std::error_code code;
     if (fs::exists(region_file(folder, 0), code))
         return Error{folder.string() + ": holds the states of a bake already; merge into another folder"};
-    const bool made_out = fs::create_directory(folder.parent_path(), code), made = fs::create_directory(folder, code);
+    auto made = OutputFolder::make(folder);
+    if (!made) return made.error();
 
     Merger merger(bake);
     Status status = Done{};
     for (std::size_t region = 0; region < bake.plan().regions.size() && status; ++region)
         status = merger.merge_region(region, *files);
-    if (status) return status;
+    if (status) {
+        made->keep();
+        return status;
+    }
 
-    // Leave nothing of a merge that failed.
+    // Remove the files of a merge that failed, and with them the folders created for it.
     for (std::size_t region = 0; region < bake.plan().regions.size(); ++region)
         fs::remove(region_file(folder, region), code);
-    if (made) fs::remove(folder, code);
-    if (made_out) fs::remove(folder.parent_path(), code);
     return status;
 }
 

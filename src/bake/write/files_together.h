@@ -5,23 +5,21 @@
 #include <string_view>
 #include <vector>
 
+#include "io/output_folder.h"
 #include "io/staged_file.h"
 
 namespace lobelia {
 
-/// Unless committed it leaves nothing behind: no file, nor a folder that it made.
+/// Unless committed it leaves nothing behind: no file, and no folder that it created.
 class FilesTogether {
   public:
-    /// Makes the folder if it is missing.
+    /// Creates the folder if it is missing, with those above it.
     [[nodiscard]] static Result<FilesTogether> in(const std::filesystem::path& folder);
-    FilesTogether(FilesTogether&& other) noexcept;
-    FilesTogether& operator=(FilesTogether&&) = delete;
-    ~FilesTogether();
 
     /// A file that `write(StagedFile&)` fills, which returns a Status.
     template <class Write>
     [[nodiscard]] Status add(const std::string& name, const Write& write) {
-        auto file = StagedFile::create(folder_ / name);
+        auto file = StagedFile::create(folder_.path() / name);
         if (!file) return file.error();
         if (Status status = write(*file); !status) return status;
         if (Status status = file->flush(); !status) return status;
@@ -37,11 +35,10 @@ class FilesTogether {
     [[nodiscard]] Status commit();
 
   private:
-    FilesTogether(std::filesystem::path folder, std::filesystem::path made)
-        : folder_(std::move(folder)), made_(std::move(made)) {}
+    explicit FilesTogether(OutputFolder folder) : folder_(std::move(folder)) {}
 
-    std::filesystem::path folder_;
-    std::filesystem::path made_;  ///< the folder, if it is new and still to be removed
+    // Destroyed after the files in it.
+    OutputFolder folder_;
     std::vector<StagedFile> files_;
 };
 
