@@ -182,7 +182,7 @@ Result<Bake> bake(const Scene& scene, const BakeJob& job, BakeSession& session) 
 
 Result<Bake> merge_bake(const Scene& scene, const BakeJob& job, std::span<const fs::path> shards,
                         BakeSession& session) {
-    if (auto status = check_session(session); !status) return status.error();
+    if (auto status = check_folder(session.folder); !status) return status.error();
     std::vector<fs::path> checkpoints;
     for (const fs::path& shard : shards) checkpoints.push_back(checkpoint_folder(shard));
     {

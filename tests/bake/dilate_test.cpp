@@ -13,7 +13,7 @@ TEST(FitPages, EveryTexelIsFittedAndNothingElseChanges) {
     const auto basis = make_basis("zh3").value();
     const std::size_t n = basis->fitted()->accumulated()->size();
     const PageChannels source{n}, target{basis->size()};
-    LightmapPage page(7, 5, source.channels());
+    LightmapPage page(7, 5, source.count());
     std::mt19937 generator(3);
     for (auto& plane : page.planes)
         for (float& v : plane) v = static_cast<float>(generator() % 1000) / 500 - 0.5f;

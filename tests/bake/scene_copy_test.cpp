@@ -20,7 +20,7 @@ struct Packed {
         options.atlas.layout = AtlasOptions::Layout::packed;
         const auto atlas = Atlas::make(world, options.atlas);
         EXPECT_TRUE(atlas);
-        bake.manifest = make_manifest(scene, *atlas, options, {});
+        bake.manifest = make_manifest(scene, *atlas, options);
         for (std::size_t i = 0; i < atlas->pages(); ++i) {
             bake.pages.emplace_back(96, 80, bake.channels().count());
             bake.normals.emplace_back(bake.pages.back().size());
@@ -101,7 +101,7 @@ TEST(PlainBake, HasNoCoefficientsAndNoTextures) {
     const auto atlas = Atlas::make(world, options.atlas);
     ASSERT_TRUE(atlas);
     Bake bake;
-    bake.manifest = make_manifest(scene, *atlas, options, {});
+    bake.manifest = make_manifest(scene, *atlas, options);
     bake.pages.emplace_back(64, 64, bake.channels().count());
     bake.normals.emplace_back(64 * 64);
     ASSERT_TRUE(write_bake(folder.path(), bake));

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "bake/preflight/preflight.h"
 #include "page_support.h"
 #include "scene/embedded.h"
 
@@ -213,7 +214,7 @@ TEST(ObjectFigures, ChartsBelongToTheirObjects) {
     const Scene scene = cornell_scene();
     const World world = make_world(scene);
     const Atlas atlas = *Atlas::make(world, {});
-    const auto objects = objects_of_charts(atlas);
+    const auto objects = preflight(atlas, map_texels(atlas)).object_of_chart;
     for (std::size_t t = 0; t < world.triangles.size(); ++t) {
         const std::uint32_t chart = atlas.chart_of_triangle()[t];
         if (chart == Atlas::k_no_chart) continue;

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "bake/session/checkpoint.h"
+#include "io/folders.h"
 
 namespace lobelia {
 namespace {
@@ -127,20 +128,21 @@ Status merge_shards(const BakeSetup& bake, std::span<const fs::path> shards, con
     std::error_code code;
     if (fs::exists(region_file(checkpoint, 0), code))
         return Error{checkpoint.string() + ": holds the states of a bake already; merge into another folder"};
-    const bool made_out = fs::create_directory(checkpoint.parent_path(), code),
-               made = fs::create_directory(checkpoint, code);
+    auto folder = MadeFolder::make(checkpoint);
+    if (!folder) return folder.error();
 
     Merger merger(bake, checkpoint);
     Status status = Done{};
     for (std::size_t region = 0; region < bake.plan.regions.size() && status; ++region)
         status = merger.merge_region(region, *files);
-    if (status) return status;
+    if (status) {
+        folder->keep();
+        return status;
+    }
 
     // Leave nothing of a merge that failed.
     for (std::size_t region = 0; region < bake.plan.regions.size(); ++region)
         fs::remove(region_file(checkpoint, region), code);
-    if (made) fs::remove(checkpoint, code);
-    if (made_out) fs::remove(checkpoint.parent_path(), code);
     return status;
 }
 
