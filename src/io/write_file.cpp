@@ -7,7 +7,6 @@
 #include <cerrno>
 #include <vector>
 
-#include "io/output_folder.h"
 #include "io/staged_file.h"
 
 namespace lobelia {
@@ -50,14 +49,6 @@ Status write_files_together(std::span<const FileContent> files) {
     }
     for (auto& file : staged)
         if (auto status = file.commit(); !status) return status;
-    return Done{};
-}
-
-Status write_into_folder(const fs::path& folder, std::span<const FileContent> files) {
-    auto made = OutputFolder::make(folder);
-    if (!made) return made.error();
-    if (auto status = write_files_together(files); !status) return status;
-    made->keep();
     return Done{};
 }
 

@@ -24,7 +24,5 @@ struct FileContent {
 /// Writes several files so that none changes unless all could be written: each is complete under its temporary name
 /// before the first is renamed.
 [[nodiscard]] Status write_files_together(std::span<const FileContent> files);
-/// Writes all files or none into `folder`, which is created if it is missing, and removed again after a failure.
-[[nodiscard]] Status write_into_folder(const std::filesystem::path& folder, std::span<const FileContent> files);
 
 }  // namespace lobelia

@@ -9,7 +9,7 @@
 #include <filesystem>
 
 #include "folders.h"
-#include "io/output_folder.h"
+#include "io/folders.h"
 #include "io/read_image.h"
 #include "io/staged_file.h"
 #include "io/write_file.h"
@@ -140,7 +140,7 @@ TEST(WriteExr, InvalidChannelsAreRefused) {
     EXPECT_FALSE(encode_exr(Image()));
 }
 
-TEST(OutputFolder, FailureLeavesNoFolder) {
+TEST(Folders, FailureLeavesNoFolder) {
     const test::TestFolder folder("output");
     const fs::path inner = folder.path() / "a" / "b" / "c";
     const std::vector<FileContent> files{{inner / "first", "1"}, {inner / "missing" / "second", "2"}};
@@ -152,7 +152,7 @@ TEST(OutputFolder, FailureLeavesNoFolder) {
     EXPECT_TRUE(fs::is_directory(folder.path() / "a"));
     EXPECT_FALSE(fs::exists(folder.path() / "a" / "b"));
     {
-        const auto made = OutputFolder::make(inner);
+        const auto made = MadeFolder::make(inner);
         ASSERT_TRUE(made) << made.error().message;
         test::overwrite(folder.path() / "a" / "b" / "other", "x");
     }
@@ -160,7 +160,7 @@ TEST(OutputFolder, FailureLeavesNoFolder) {
     EXPECT_TRUE(fs::exists(folder.path() / "a" / "b" / "other"));
 }
 
-TEST(OutputFolder, SuccessKeepsTheFolders) {
+TEST(Folders, SuccessKeepsTheFolders) {
     const test::TestFolder folder("output-kept");
     for (const fs::path& inner :
          {folder.path() / "a" / "b", folder.path() / "c" / "d" / "", folder.path() / "a" / "b"}) {
@@ -169,11 +169,11 @@ TEST(OutputFolder, SuccessKeepsTheFolders) {
     }
 }
 
-TEST(OutputFolder, ImpossibleFoldersAreErrors) {
+TEST(Folders, ImpossibleFoldersAreErrors) {
     const test::TestFolder folder("output-bad");
     test::overwrite(folder.path() / "file", "x");
     for (const fs::path& bad : {folder.path() / "file", folder.path() / "file" / "inner"}) {
-        const auto made = OutputFolder::make(bad);
+        const auto made = MadeFolder::make(bad);
         ASSERT_FALSE(made);
         EXPECT_NE(made.error().message.find("cannot be made a folder"), std::string::npos) << made.error().message;
     }

@@ -4,9 +4,9 @@
 namespace lobelia {
 
 Result<FilesTogether> FilesTogether::in(const std::filesystem::path& folder) {
-    auto made = OutputFolder::make(folder);
+    auto made = MadeFolder::make(folder);
     if (!made) return made.error();
-    return FilesTogether(*std::move(made));
+    return FilesTogether(folder, *std::move(made));
 }
 
 Status FilesTogether::add_text(const std::string& name, std::string_view text) {
@@ -16,7 +16,7 @@ Status FilesTogether::add_text(const std::string& name, std::string_view text) {
 Status FilesTogether::commit() {
     for (auto& file : files_)
         if (Status status = file.commit(); !status) return status;
-    folder_.keep();
+    made_.keep();
     return Done{};
 }
 

@@ -5,25 +5,25 @@
 #include <string_view>
 #include <vector>
 
-#include "io/output_folder.h"
+#include "io/folders.h"
 #include "io/staged_file.h"
 
 namespace lobelia {
 
-/// Unless committed it leaves nothing behind: no file, and no folder that it created.
+/// Files that are staged together; unless they are committed, neither files nor folders made here are left behind.
 class FilesTogether {
   public:
-    /// Creates the folder if it is missing, with those above it.
+    /// Makes the folder if it is missing.
     [[nodiscard]] static Result<FilesTogether> in(const std::filesystem::path& folder);
 
-    /// A file that `write(StagedFile&)` fills, which returns a Status.
+    /// Adds a file that `write(StagedFile&)` fills; `write` returns a Status.
     template <class Write>
     [[nodiscard]] Status add(const std::string& name, const Write& write) {
-        auto file = StagedFile::create(folder_.path() / name);
+        auto file = StagedFile::create(folder_ / name);
         if (!file) return file.error();
         if (Status status = write(*file); !status) return status;
         if (Status status = file->flush(); !status) return status;
-        // A process may not hold many files open.
+        // Keep few files open: a process may hold a limited number.
         constexpr std::size_t k_most_open = 64;
         if (files_.size() >= k_most_open)
             if (Status status = file->close(); !status) return status;
@@ -31,14 +31,14 @@ class FilesTogether {
         return Done{};
     }
     [[nodiscard]] Status add_text(const std::string& name, std::string_view text);
-    /// Puts them in place, in the order in which they were added.
+    /// Puts the files in place, in the order in which they were added.
     [[nodiscard]] Status commit();
 
   private:
-    explicit FilesTogether(OutputFolder folder) : folder_(std::move(folder)) {}
+    FilesTogether(std::filesystem::path folder, MadeFolder made) : folder_(std::move(folder)), made_(std::move(made)) {}
 
-    // Destroyed after the files in it.
-    OutputFolder folder_;
+    std::filesystem::path folder_;
+    MadeFolder made_;  ///< before the files: they are removed first
     std::vector<StagedFile> files_;
 };
 
