@@ -7,7 +7,9 @@
 // With a JsonFieldWriter it fills an object, with a JsonFieldReader it reads one; what is missing keeps its value.
 #pragma once
 
-#include "bake/write/json_place.h"
+#include <nlohmann/json.hpp>
+
+#include "io/json.h"
 
 namespace lobelia {
 
@@ -38,6 +40,12 @@ class JsonFieldWriter {
         JsonFieldWriter inner;
         fields(inner, value);
         object[name] = std::move(inner.object);
+    }
+    /// Absent groups are null.
+    template <class T>
+    void group(const char* name, std::optional<T>& value) {
+        object[name] = nullptr;
+        if (value) group(name, *value);
     }
 
     nlohmann::ordered_json object = nlohmann::ordered_json::object();
@@ -81,6 +89,10 @@ class JsonFieldReader {
             JsonFieldReader inner(*found);
             fields(inner, value);
         }
+    }
+    template <class T>
+    void group(const char* name, std::optional<T>& value) {
+        if (place_.find(name)) group(name, value.emplace());
     }
 
   private:
