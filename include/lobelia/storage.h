@@ -19,6 +19,20 @@ struct CoefficientTraits {
 /// Of the encoders that a basis is listed with, those of a non-negative one where it has any: most storages suit it.
 [[nodiscard]] CoefficientTraits coefficient_traits(const std::shared_ptr<const Basis>& basis);
 
+/// The largest error of storing v: relative m + of_texture t + spread s + absolute.
+struct ErrorBound {
+    /// What `relative` is a share of, m: the stored value alone; the largest magnitude among what is stored with it,
+    /// of a texel or of a coefficient's three channels; or the largest magnitude of the leading coefficient, times
+    /// what that bounds this one by.
+    enum class Of { value, together, lead };
+    double relative = 0;
+    Of of = Of::value;
+    double absolute = 0;     ///< beneath what the format can tell from 0
+    double of_texture = 0;   ///< share of t, the largest magnitude in the texture
+    double spread = 0;       ///< share of s, the largest difference, in any channel, within the texels that share data
+    std::size_t shared = 1;  ///< those are squares of this many texels a side
+};
+
 /// A way to store coefficients; all of it is data.
 struct Storage {
     /// What coefficients must be for it.

@@ -4,8 +4,8 @@
 
 #include <map>
 
-#include "core/encode/moments.h"
-#include "core/encode/sequential.h"
+#include "lobelia/encoders.h"
+#include "lobelia/encoders.h"
 #include "ennis.h"
 #include "lobelia/codec.h"
 #include "support.h"

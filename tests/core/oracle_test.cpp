@@ -4,7 +4,7 @@
 #include <Eigen/Dense>
 #include <functional>
 
-#include "core/encode/sequential.h"
+#include "lobelia/encoders.h"
 #include "lobelia/codec.h"
 #include "lobelia/environment.h"
 #include "lobelia/sampling.h"

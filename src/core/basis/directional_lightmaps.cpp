@@ -233,32 +233,6 @@ std::string DirectionalLightmap::description() const {
     return {};
 }
 
-BasisNotes DirectionalLightmap::notes() const {
-    switch (kind_) {
-        case Kind::sh1h:
-            return {"Degree-1 harmonics of the hemisphere",
-                    "L(w) = sum of c_i Y_i(w), degree 1, c_i = integral of L Y_i above the surface",
-                    "bakes that add samples up and nothing else: E(n) = integral of L / 4 + (integral of L w) . n / 2",
-                    "light from the side: degree 1 is too smooth for a horizon"};
-        case Kind::irradz:
-            return {"Degree-1 harmonics, exact at the normal",
-                    "E(n) = e0 + e . n, E exact at the surface's normal, nearest by least squares at the others above",
-                    "lightmaps under normal maps in 12 floats, read like degree-1 harmonics: flat surfaces are exact",
-                    "radiance, which only serves to carry the irradiance"};
-        case Kind::enlighten:
-            return {"Directional lightmap",
-                    "E(n) = E (1 + n . D) / (1 + D_z), E a colour, D a vector of at most length 1",
-                    "six floats; a flat surface reads exactly the lightmap that it would have without directions",
-                    "lights of different colours from different sides; light at grazing angles"};
-        case Kind::enlighten_rgb:
-            return {"Directional lightmap, a direction for each channel",
-                    "E(n) = E (1 + n . D) / (1 + D_z), E and D for each channel",
-                    "as above, with coloured light from several sides",
-                    "twelve floats, as many as degree-1 harmonics, which are read with less"};
-    }
-    return {};
-}
-
 std::shared_ptr<const Evaluator> DirectionalLightmap::evaluator(std::string_view name) const {
     if (name == "linear") return std::make_shared<LinearInNormal>(kind_, Negative::clamped);
     if (name == "linear-signed") return std::make_shared<LinearInNormal>(kind_, Negative::kept);

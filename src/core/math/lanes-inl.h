@@ -1,5 +1,5 @@
-// What every file of vectorised loops starts with: the vector type and stores that end where the data ends. For sources
-// that Highway includes once for each target, after highway.h.
+// What every file of vectorised loops starts with: the vector type, loads and stores that end where the data ends, sums
+// of colours. For sources that Highway includes once for each target, after highway.h.
 #if defined(LOBELIA_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef LOBELIA_LANES_INL_H
 #undef LOBELIA_LANES_INL_H
@@ -31,17 +31,73 @@ HWY_INLINE void store(D d, V v, float* row, std::size_t j, std::size_t size) {
     }
 }
 
+/// Loads lanes j .. of a row of `size` floats; zero beyond its end, where nothing is read.
+HWY_INLINE V load(D d, const float* row, std::size_t j, std::size_t size) {
+    if (j + hn::Lanes(d) <= size) return hn::LoadU(d, row + j);
+    alignas(64) float lanes[k_lanes] = {};
+    std::copy_n(row + j, size - j, lanes);
+    return hn::Load(d, lanes);
+}
+
 /// The directions from entry j on.
 struct Lanes3 {
     V x, y, z;
 };
 HWY_INLINE Lanes3 load(D d, const DirectionView& directions, std::size_t j) {
-    return {hn::LoadU(d, directions.channel(0) + j), hn::LoadU(d, directions.channel(1) + j),
-            hn::LoadU(d, directions.channel(2) + j)};
+    return {load(d, directions.channel(0), j, directions.size), load(d, directions.channel(1), j, directions.size),
+            load(d, directions.channel(2), j, directions.size)};
 }
 HWY_INLINE V dot(D d, const Vec3& a, const Lanes3& b) {
     return hn::MulAdd(hn::Set(d, a.x), b.x, hn::MulAdd(hn::Set(d, a.y), b.y, hn::Mul(hn::Set(d, a.z), b.z)));
 }
+
+/// The sum of `count` colours c_i times weights, each weight in all lanes of a vector of DC. Red, green and blue lie side
+/// by side in one vector; plain code has a float for each.
+#if HWY_TARGET == HWY_SCALAR
+using DC = hn::CappedTag<float, 1>;
+class ColourSum {
+  public:
+    ColourSum(const Rgb* c, std::size_t) : c_(c) {}
+    void add(std::size_t i, hn::Vec<DC> weight) { sum_ = sum_ + c_[i] * hn::GetLane(weight); }
+    [[nodiscard]] Rgb total() const { return sum_; }
+
+  private:
+    const Rgb* c_;
+    Rgb sum_;
+};
+#else
+using DC = hn::CappedTag<float, 4>;
+class ColourSum {
+  public:
+    HWY_INLINE ColourSum(const Rgb* c, std::size_t count) : c_(c), count_(count) {}
+    HWY_INLINE void add(std::size_t i, hn::Vec<DC> weight) {
+        // Two sums, so that additions do not all wait for each other.
+        hn::Vec<DC>& sum = i % 2 == 0 ? even_ : odd_;
+        sum = hn::MulAdd(colour(i), weight, sum);
+    }
+    [[nodiscard]] HWY_INLINE Rgb total() const {
+        alignas(16) float lanes[4];
+        hn::Store(hn::Add(even_, odd_), DC(), lanes);
+        return {lanes[0], lanes[1], lanes[2]};
+    }
+
+  private:
+    /// Colour i and a fourth float of no meaning. The last colour is loaded from one float before it, since nothing
+    /// beyond it may be read.
+    [[nodiscard]] HWY_INLINE hn::Vec<DC> colour(std::size_t i) const {
+        const DC d;
+        const float* const first = &c_[i].r;
+        if (i + 1 < count_) return hn::LoadU(d, first);
+        if (i > 0) return hn::Shuffle0321(hn::LoadU(d, first - 1));
+        alignas(16) const float only[4] = {c_[0].r, c_[0].g, c_[0].b, 0};
+        return hn::Load(d, only);
+    }
+
+    const Rgb* c_;
+    std::size_t count_;
+    hn::Vec<DC> even_ = hn::Zero(DC()), odd_ = hn::Zero(DC());
+};
+#endif
 
 }  // namespace lobelia::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

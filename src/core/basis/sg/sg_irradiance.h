@@ -35,11 +35,17 @@ class SgIrradianceWeights final : public LinearEvaluator {
     [[nodiscard]] Accuracy accuracy() const override;
     [[nodiscard]] std::size_t size() const override { return lobes_.size(); }
     void values(DirectionView block, float* rows) const override;
+    void values_at(Vec3 normal, std::span<float> values) const override;
 
   private:
     SgIrradiance kind_;
-    std::vector<gaussian::Lobe> lobes_;
-    std::vector<std::vector<float>> constants_;  ///< per lobe, as the kind's formula reads them
+    std::vector<Lobe> lobes_;
+    std::vector<std::vector<float>> constants_;  ///< of each lobe, in the order of the kind's formula
+    // The same for lanes that run over lobes, as values_at reads them.
+    Directions axes_;
+    std::vector<float> constant_rows_;  ///< constant k of lobe i at [k * lobe_stride_ + i]
+    std::size_t constant_count_ = 0, lobe_stride_ = 0;
+    std::vector<std::size_t> ambient_;  ///< lobes of sharpness 0
 };
 
 /// Minimax fit of the even part of E / I by q_0 + q_1 x + q_2 x^2 + ..., x = c^2, `count` coefficients.

@@ -36,30 +36,23 @@ void decode_with(const std::byte* bytes, std::size_t count, float* const* out) {
     kernel(channels, bytes, count, out);
 }
 
-using Of = ErrorBound::Of;
 constexpr double k_float_max = std::numeric_limits<float>::max();
-
-/// Half an ulp of 11 bits; half of the least subnormal.
-constexpr ErrorBound k_half_bound{.relative = 0x1p-11, .absolute = 0x1p-25};
-constexpr ErrorBound k_unorm8_bound{.absolute = 0.5 / 255 + 1e-7};
-/// Constant blocks keep 11 bits; others stay within their range, but for the rounding of their ends.
-constexpr ErrorBound k_bc6h_bound{.relative = 0x1p-10, .absolute = 0x1p-22, .spread = 1, .shared = 4};
 
 template <std::size_t channels>
 constexpr Entry floats(std::string_view name, std::uint32_t vk_format) {
-    return {{name, channels, 1, 4 * channels, vk_format, -k_float_max, k_float_max, {}},
+    return {{name, channels, 1, 4 * channels, vk_format, -k_float_max, k_float_max},
             encode_with<channels, texels::encode_floats>,
             decode_with<channels, texels::decode_floats>};
 }
 template <std::size_t channels>
 constexpr Entry halves(std::string_view name, std::uint32_t vk_format) {
-    return {{name, channels, 1, 2 * channels, vk_format, -k_largest_half, k_largest_half, k_half_bound},
+    return {{name, channels, 1, 2 * channels, vk_format, -k_largest_half, k_largest_half},
             encode_with<channels, texels::encode_halves>,
             decode_with<channels, texels::decode_halves>};
 }
 template <std::size_t channels>
 constexpr Entry unorm8(std::string_view name, std::uint32_t vk_format) {
-    return {{name, channels, 1, channels, vk_format, 0, 1, k_unorm8_bound},
+    return {{name, channels, 1, channels, vk_format, 0, 1},
             encode_with<channels, texels::encode_unorm8>,
             decode_with<channels, texels::decode_unorm8>};
 }
@@ -75,41 +68,13 @@ constexpr std::array k_formats = {
     unorm8<1>("r8", 9),
     unorm8<2>("rg8", 16),
     unorm8<4>("rgba8", 37),
-    Entry{{"rgb10a2", 3, 1, 4, 64, 0, 1, {.absolute = 0.5 / 1023 + 1e-7}},
-          texels::encode_unorm10,
-          texels::decode_unorm10},
-    // Nine bits without an implied one: half a step is at most 2^-9 of a largest component just above a power of two.
-    Entry{{"rgb9e5",
-           3,
-           1,
-           4,
-           123,
-           0,
-           texels::k_largest_rgb9e5,
-           {.relative = 0x1p-9, .of = Of::together, .absolute = 0x1p-25}},
-          texels::encode_rgb9e5,
-          texels::decode_rgb9e5},
-    Entry{{"rgbe8",
-           3,
-           1,
-           4,
-           37,
-           0,
-           texels::k_largest_rgbe,
-           {.relative = 0x1p-8, .of = Of::together, .absolute = texels::k_least_rgbe}},
-          texels::encode_rgbe,
-          texels::decode_rgbe},
-    // The factor is at most 1 / 255 above the largest component, which is at least half of what storing_scale() gives.
-    Entry{
-        {"rgbm8", 3, 1, 4, 37, 0, 1, {.relative = 0.5 / 255 + 1e-6, .of = Of::together, .of_texture = 2 * 0.5 / 65025}},
-        texels::encode_rgbm,
-        texels::decode_rgbm},
-    // The step of v' is the most of it, and weighs most in blue.
-    Entry{{"logluv32", 3, 1, 4, 37, 0, 0x1p60, {.relative = 0.0213, .of = Of::together, .absolute = 0x1p-59}},
-          texels::encode_logluv,
-          texels::decode_logluv},
-    Entry{{"bc6h_unsigned", 3, 4, bc6h::k_block_bytes, 143, 0, k_largest_half, k_bc6h_bound}},
-    Entry{{"bc6h_signed", 3, 4, bc6h::k_block_bytes, 144, -k_largest_half, k_largest_half, k_bc6h_bound}},
+    Entry{{"rgb10a2", 3, 1, 4, 64, 0, 1}, texels::encode_unorm10, texels::decode_unorm10},
+    Entry{{"rgb9e5", 3, 1, 4, 123, 0, texels::k_largest_rgb9e5}, texels::encode_rgb9e5, texels::decode_rgb9e5},
+    Entry{{"rgbe8", 3, 1, 4, 37, 0, texels::k_largest_rgbe}, texels::encode_rgbe, texels::decode_rgbe},
+    Entry{{"rgbm8", 3, 1, 4, 37, 0, 1}, texels::encode_rgbm, texels::decode_rgbm},
+    Entry{{"logluv32", 3, 1, 4, 37, 0, 0x1p60}, texels::encode_logluv, texels::decode_logluv},
+    Entry{{"bc6h_unsigned", 3, 4, bc6h::k_block_bytes, 143, 0, k_largest_half}},
+    Entry{{"bc6h_signed", 3, 4, bc6h::k_block_bytes, 144, -k_largest_half, k_largest_half}},
 };
 
 const Entry& entry_of(PixelFormat format) { return k_formats[static_cast<std::size_t>(format)]; }
