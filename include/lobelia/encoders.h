@@ -27,6 +27,10 @@ enum class MomentSolver {
     joint_non_negative
 };
 
+/// The share by which the diagonal of a sampled Gram matrix is raised before it is solved: above the smallest
+/// difference that sums in float32 resolve.
+inline constexpr double k_gram_ridge = 1e-6;
+
 struct MomentOptions {
     double irradiance_weight = 1;  ///< w of the joint norm, 0 and up
 };

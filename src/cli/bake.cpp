@@ -7,6 +7,7 @@
 
 #include "cli/bake_job.h"
 #include "cli/common.h"
+#include "cli/lobe_files.h"
 #include "cli/verbs.h"
 
 namespace lobelia::cli {
@@ -168,7 +169,9 @@ Status merge_verb(const std::vector<std::string>& parts, const std::string& out,
 
 void add_transport_options(CLI::App& command, BakeArguments& o) {
     BakeOptions& bake = o.job.bake;
-    command.add_option("--codec", bake.codec, "As basis/encoder/evaluator, see lobelia list")->capture_default_str();
+    command.add_option("--codec", bake.codec, "As basis/encoder/evaluator, see lobelia list")
+        ->transform(CLI::Validator(replace_lobe_file, ""))
+        ->capture_default_str();
     command.add_flag("--plain", o.plain, "No codec: irradiance at the shading normal alone");
     command.add_option("--frame", o.frame, "Where a basis over the sphere stands: world, or tangent to each texel")
         ->check(CLI::IsMember({"world", "tangent"}))
@@ -256,7 +259,9 @@ void add_output_options(CLI::App& command, BakeArguments& o) {
     command.add_option("--probes", o.probes, "Bake probes, too: in the \"scene\"'s box or one given, x,y,z,x,y,z [m]");
     command.add_option("--probe-spacing", probes.spacing, "Of the coarsest grid [m], 0.001 to 10000 (default 1)")
         ->check(number_in(0.001, 10000));
-    command.add_option("--probe-codec", probes.codec, "Over the sphere")->capture_default_str();
+    command.add_option("--probe-codec", probes.codec, "Over the sphere")
+        ->transform(CLI::Validator(replace_lobe_file, ""))
+        ->capture_default_str();
     command.add_option("--probe-levels", probes.levels, "How often a cell of the grid may be divided, 0 to 6")
         ->check(CLI::Range(0, 6))
         ->capture_default_str();

@@ -4,10 +4,9 @@
 
 #include <map>
 
-#include "lobelia/encoders.h"
-#include "lobelia/encoders.h"
 #include "ennis.h"
 #include "lobelia/codec.h"
+#include "lobelia/encoders.h"
 #include "support.h"
 
 namespace lobelia {

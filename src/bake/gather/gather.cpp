@@ -3,7 +3,7 @@
 
 #include <cassert>
 
-#include "trace/directions.h"
+#include "core/sample/directions.h"
 #include "trace/material.h"
 
 namespace lobelia {

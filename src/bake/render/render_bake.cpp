@@ -5,8 +5,8 @@
 #include "bake/place/texels.h"
 #include "bake/render/render.h"
 #include "bake/render/render_tiles.h"
+#include "core/sample/directions.h"
 #include "lobelia/evaluate.h"
-#include "trace/directions.h"
 
 namespace lobelia {
 namespace {

@@ -4,10 +4,10 @@
 #include <algorithm>
 
 #include "core/basis/hemisphere_polynomials.h"
-#include "core/math/zonal_quadratic.h"
 #include "core/math/dense.h"
 #include "core/math/harmonics_degree_2.h"
 #include "core/math/quadrature.h"
+#include "core/math/zonal_quadratic.h"
 
 namespace lobelia {
 namespace {

@@ -1,7 +1,6 @@
 // Moment encoders: one accumulator, several solvers.
 #include "lobelia/encoders.h"
 
-
 #include <Eigen/Dense>
 #include <cmath>
 
@@ -160,8 +159,7 @@ class MomentEncoder final : public LinearEncoder {
         MatrixXd gram(n, n);
         for (Eigen::Index i = 0; i < n; ++i)
             for (Eigen::Index j = i; j < n; ++j) gram(i, j) = gram(j, i) = normalise * *next++;
-        // A ridge, relative to each function, above what float32 sums can tell apart.
-        gram.diagonal() *= 1 + 1e-6;
+        gram.diagonal() *= 1 + k_gram_ridge;
         return gram;
     }
 

@@ -39,8 +39,7 @@ class SequentialEncoder : public LinearEncoder {
         for (std::size_t k = 0; k < 3; ++k) s.b[k] = padded + k * lanes;
         s.per_lobe = padded + 3 * lanes;
         s.floor = padded + 4 * lanes;
-        for (std::size_t k = 0; k < arrays(); ++k)
-            std::copy_n(state.data() + k_header + k * n, n, padded + k * lanes);
+        for (std::size_t k = 0; k < arrays(); ++k) std::copy_n(state.data() + k_header + k * n, n, padded + k * lanes);
         if (state[k_count] == 0) start(s);
         fill_floor(padded + 4 * lanes);
 
@@ -64,8 +63,7 @@ class SequentialEncoder : public LinearEncoder {
         // Pack it again.
         state[k_weight] = static_cast<float>(progress.weight);
         state[k_count] = static_cast<float>(progress.count);
-        for (std::size_t k = 0; k < arrays(); ++k)
-            std::copy_n(padded + k * lanes, n, state.data() + k_header + k * n);
+        for (std::size_t k = 0; k < arrays(); ++k) std::copy_n(padded + k * lanes, n, state.data() + k_header + k * n);
     }
 
     void solve(std::span<const float> state, std::span<Rgb> c) const override {

@@ -40,7 +40,8 @@ HWY_INLINE void for_each_harmonic(Tag d, Degree degree, const float* table, hn::
                 if (m > 0) visit(l, l * l + l - m, hn::Mul(q, sine));
             }
             if (l == degree) break;
-            const Vec next = hn::NegMulAdd(hn::Set(d, table[1]), previous, hn::Mul(hn::Mul(hn::Set(d, table[0]), z), q));
+            const Vec next =
+                hn::NegMulAdd(hn::Set(d, table[1]), previous, hn::Mul(hn::Mul(hn::Set(d, table[0]), z), q));
             table += 2;
             previous = q;
             q = next;

@@ -75,8 +75,7 @@ void irradiance_sum(SampleView samples, DirectionView normals, MutableColourView
         for (std::size_t j = 0; j < part.size; j += hn::Lanes(d)) {
             const V omega = load(d, part.solid_angles(), j, part.size);
             for (std::size_t k = 0; k < 3; ++k)
-                hn::Store(hn::Mul(omega, load(d, part.radiance().channel(k), j, part.size)), d,
-                          flux[k] + j);
+                hn::Store(hn::Mul(omega, load(d, part.radiance().channel(k), j, part.size)), d, flux[k] + j);
         }
 
         // Visit several normals at a time: each loaded sample then serves several sums.
@@ -108,8 +107,7 @@ float AddMoments(const float* rows, std::size_t count, SampleView block, float* 
         const V omega = load(d, block.solid_angles(), j, block.size);
         total = hn::Add(total, omega);
         for (std::size_t k = 0; k < 3; ++k)
-            hn::Store(hn::Mul(omega, load(d, block.radiance().channel(k), j, block.size)), d,
-                      flux[k] + j);
+            hn::Store(hn::Mul(omega, load(d, block.radiance().channel(k), j, block.size)), d, flux[k] + j);
     }
     for (std::size_t i = 0; i < count; ++i) {
         const float* row = rows + i * k_block_size;
@@ -318,9 +316,7 @@ void combine(const float* rows, std::size_t count, std::span<const Rgb> c, Mutab
 void combine_each(const float* rows, std::span<const float* const> c, std::size_t begin, MutableColourView out) {
     HWY_DYNAMIC_DISPATCH(CombineEach)(rows, c, begin, out);
 }
-Rgb weighted_sum(const float* weights, std::span<const Rgb> c) {
-    return HWY_DYNAMIC_DISPATCH(WeightedSum)(weights, c);
-}
+Rgb weighted_sum(const float* weights, std::span<const Rgb> c) { return HWY_DYNAMIC_DISPATCH(WeightedSum)(weights, c); }
 void transform_rows(const float* rows, std::size_t count, const float* matrix, std::size_t size, float* to) {
     HWY_DYNAMIC_DISPATCH(TransformRows)(rows, count, matrix, size, to);
 }

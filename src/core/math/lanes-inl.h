@@ -51,8 +51,8 @@ HWY_INLINE V dot(D d, const Vec3& a, const Lanes3& b) {
     return hn::MulAdd(hn::Set(d, a.x), b.x, hn::MulAdd(hn::Set(d, a.y), b.y, hn::Mul(hn::Set(d, a.z), b.z)));
 }
 
-/// The sum of `count` colours c_i times weights, each weight in all lanes of a vector of DC. Red, green and blue lie side
-/// by side in one vector; plain code has a float for each.
+/// The sum of `count` colours c_i times weights, each weight in all lanes of a vector of DC. Red, green and blue lie
+/// side by side in one vector; plain code has a float for each.
 #if HWY_TARGET == HWY_SCALAR
 using DC = hn::CappedTag<float, 1>;
 class ColourSum {

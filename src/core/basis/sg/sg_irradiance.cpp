@@ -140,7 +140,7 @@ struct OddExact {
 
 struct Polynomial {
     template <class K>
-    static HWY_INLINE V eval(D d, const K& k, V c) {
+    static HWY_INLINE V eval(D, const K& k, V c) {
         const V x = hn::Mul(c, c);
         V even = k(4);
         for (std::size_t i = 3; i >= 1; --i) even = hn::MulAdd(even, x, k(i));
@@ -415,8 +415,7 @@ SgIrradianceWeights::SgIrradianceWeights(SgIrradiance kind, std::vector<gaussian
     constant_rows_.resize(constant_count_ * lobe_stride_);
     for (std::size_t i = 0; i < lobes_.size(); ++i) {
         set_entry(axes_.view(), i, lobes_[i].axis);
-        for (std::size_t k = 0; k < constants_[i].size(); ++k)
-            constant_rows_[k * lobe_stride_ + i] = constants_[i][k];
+        for (std::size_t k = 0; k < constants_[i].size(); ++k) constant_rows_[k * lobe_stride_ + i] = constants_[i][k];
         if (is_ambient(lobes_[i])) ambient_.push_back(i);
     }
 }
@@ -441,9 +440,8 @@ void SgIrradianceWeights::values(DirectionView block, float* rows) const {
 
 void SgIrradianceWeights::values_at(Vec3 normal, std::span<float> values) const {
     assert(values.size() == size());
-    if (constant_count_ > 0)
-        HWY_DYNAMIC_DISPATCH(WeightsAt)
-        (kind_, axes_.view(), constant_rows_.data(), constant_count_, lobe_stride_, normal, values.data());
+    if (constant_count_ > 0) HWY_DYNAMIC_DISPATCH(WeightsAt)
+    (kind_, axes_.view(), constant_rows_.data(), constant_count_, lobe_stride_, normal, values.data());
     for (const std::size_t i : ambient_) values[i] = static_cast<float>(k_pi);
 }
 

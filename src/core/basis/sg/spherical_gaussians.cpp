@@ -22,8 +22,8 @@ HWY_BEFORE_NAMESPACE();
 namespace lobelia::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// exp(-lambda |s - p|^2 / 2), which keeps its precision at every sharpness, as lambda (s . p - 1) does not. Below e^-43
-/// it is 0: its square is then a normal float or 0, since with others a machine is slow.
+/// exp(-lambda |s - p|^2 / 2), which keeps its precision at every sharpness, as lambda (s . p - 1) does not. Below
+/// e^-43 it is 0: its square is then a normal float or 0, since with others a machine is slow.
 HWY_INLINE V gaussian_value(D d, const Lanes3& s, const Lanes3& p, V sharpness) {
     const V x = hn::Sub(s.x, p.x), y = hn::Sub(s.y, p.y), z = hn::Sub(s.z, p.z);
     const V squared = hn::MulAdd(x, x, hn::MulAdd(y, y, hn::Mul(z, z)));

@@ -6,9 +6,9 @@
 #include <limits>
 #include <numeric>
 
-#include "core/math/zonal_quadratic.h"
 #include "core/math/harmonics_degree_2.h"
 #include "core/math/scratch.h"
+#include "core/math/zonal_quadratic.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/basis/sh/sh_irradiance.cpp"

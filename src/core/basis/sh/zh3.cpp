@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "core/basis/sh/spherical_harmonics.h"
-#include "core/math/zonal_quadratic.h"
 #include "core/math/harmonics_degree_2.h"
+#include "core/math/zonal_quadratic.h"
 
 namespace lobelia {
 namespace {

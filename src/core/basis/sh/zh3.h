@@ -1,8 +1,8 @@
 // ZH3: degree-1 harmonics and the part of degree 2 that is zonal about the axis of degree 1. Roughton et al. 2024.
 #pragma once
 
-#include "lobelia/basis.h"
 #include "lobelia/bases.h"
+#include "lobelia/basis.h"
 
 namespace lobelia {
 
