@@ -39,6 +39,8 @@ struct FormatInfo {
 };
 
 [[nodiscard]] const FormatInfo& info(PixelFormat format);
+/// All formats, in the order of the enumerators.
+[[nodiscard]] std::span<const PixelFormat> pixel_formats();
 
 /// Bytes of a width x height texture; parts of blocks count as whole ones.
 [[nodiscard]] std::size_t byte_size(PixelFormat format, std::size_t width, std::size_t height);

@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <cstdlib>
+#include <memory>
 #include <new>
 
 #include "lobelia/codec.h"
@@ -23,16 +24,18 @@ void* counted(std::size_t size, std::size_t alignment) {
     if (memory == nullptr) throw std::bad_alloc();
     return memory;
 }
+/// Not inlined, or compilers see memory of operator new being freed.
+__attribute__((noinline)) void release(void* memory) { std::free(memory); }
 }  // namespace
 
 void* operator new(std::size_t size) { return counted(size, alignof(std::max_align_t)); }
 void* operator new(std::size_t size, std::align_val_t alignment) {
     return counted(size, static_cast<std::size_t>(alignment));
 }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
+void operator delete(void* memory) noexcept { release(memory); }
+void operator delete(void* memory, std::size_t) noexcept { release(memory); }
+void operator delete(void* memory, std::align_val_t) noexcept { release(memory); }
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { release(memory); }
 
 namespace lobelia {
 namespace {
@@ -59,7 +62,9 @@ bool searches(const std::string& basis, const std::string& evaluator) {
 }
 
 TEST(Allocations, AreCounted) {
-    EXPECT_GT(allocations_of([] { delete new int; }), 0u);
+    std::unique_ptr<int> kept;
+    EXPECT_EQ(allocations_of([&] { kept = std::make_unique<int>(1); }), 1u);
+    EXPECT_EQ(allocations_of([] { Directions(5); }), 1u);
 }
 
 TEST(Allocations, EvaluationHasNone) {

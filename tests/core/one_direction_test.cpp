@@ -64,11 +64,11 @@ TEST(OneDirection, EqualsTheBatch) {
 TEST(OneDirection, ValuesEqualTheRows) {
     const auto expect_values = [](const FunctionSet& functions, const std::string& what) {
         const Directions directions = test::random_directions(Domain::sphere, 19, 5);
-        std::vector<float> rows(functions.size() * k_block_size), values(functions.size());
+        std::vector<float> rows(functions.size() * k_block_size), values(round_up_to_lanes(functions.size()));
         functions.values(directions, rows.data());
         for (std::size_t j = 0; j < directions.size(); ++j) {
             functions.values_at(direction_at(directions, j), values);
-            for (std::size_t i = 0; i < values.size(); ++i)
+            for (std::size_t i = 0; i < functions.size(); ++i)
                 EXPECT_NEAR(values[i], rows[i * k_block_size + j], 2e-6f * (1 + std::abs(values[i]))) << what;
         }
     };

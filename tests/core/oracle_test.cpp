@@ -1,11 +1,12 @@
 // The sequential encoders against their published formulae, written out once more in plain double precision.
 #include <gtest/gtest.h>
 
-#include <random>
-
 #include <Eigen/Dense>
 #include <functional>
+#include <random>
 
+#include "core/math/least_squares.h"
+#include "core/math/small_nnls.h"
 #include "lobelia/codec.h"
 #include "lobelia/encoders.h"
 #include "lobelia/environment.h"

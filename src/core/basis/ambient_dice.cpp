@@ -5,10 +5,10 @@
 #include <array>
 
 #include "core/basis/icosahedron.h"
+#include "core/basis/turned_block.h"
 #include "core/math/dense.h"
 #include "core/math/harmonics.h"
 #include "core/math/quadrature.h"
-#include "core/math/scratch.h"
 
 namespace lobelia {
 namespace {
@@ -213,13 +213,7 @@ class DiceConvolution final : public Evaluator {
     void signed_irradiance(std::span<const Rgb> c, DirectionView normals, MutableColourView out) const override {
         const Coefficients e = convolved(c);
         for_each_part(normals, k_block_size, [&](DirectionView block, std::size_t begin) {
-            // Turn the normals to the frame of the dice.
-            const Scratch memory(3 * k_block_size);
-            float* const turned = memory.data();
-            const PlanesView<3, float> in_dice{{turned, turned + k_block_size, turned + 2 * k_block_size}, block.size};
-            for (std::size_t j = 0; j < block.size; ++j)
-                set_entry(in_dice, j, rotate(dice_from_domain_, direction_at(block, j)));
-            harmonics_.sum(e, in_dice, out.part(begin, block.size));
+            harmonics_.sum(e, TurnedBlock(block, dice_from_domain_).view(), out.part(begin, block.size));
         });
     }
 

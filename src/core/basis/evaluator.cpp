@@ -17,7 +17,7 @@ struct OneDirection {
     [[nodiscard]] MutableColourView colours() { return {{&colour.r, &colour.g, &colour.b}, 1}; }
 };
 
-/// Sets of at most this many functions are evaluated at one direction on the stack.
+/// Sets of at most this many functions, whole lanes of them, are evaluated at one direction on the stack.
 constexpr std::size_t k_few = 128;
 
 /// Evaluates places one by one, as evaluators that are not linear in the coefficients have to be: at(c, direction).
@@ -45,12 +45,11 @@ void evaluate_each(const FunctionSet& functions, CoefficientPointers c, Directio
 
 }  // namespace
 
-void FunctionSet::values_at(Vec3 direction, std::span<float> values) const {
-    assert(values.size() == size());
+void FunctionSet::values_at(Vec3 direction, float* values) const {
     const OneDirection one{direction, {}};
     const Scratch rows(size() * k_block_size);
     this->values(one.directions(), rows.data());
-    for (std::size_t i = 0; i < values.size(); ++i) values[i] = rows.data()[i * k_block_size];
+    for (std::size_t i = 0; i < size(); ++i) values[i] = rows.data()[i * k_block_size];
 }
 
 Rgb Evaluator::signed_irradiance_at(std::span<const Rgb> c, Vec3 normal) const {
@@ -85,12 +84,12 @@ void evaluate(const FunctionSet& functions, std::span<const Rgb> c, DirectionVie
 Rgb evaluate(const FunctionSet& functions, std::span<const Rgb> c, Vec3 direction) {
     assert(c.size() == functions.size());
     if (c.size() <= k_few) {
-        float values[k_few];
-        functions.values_at(direction, {values, c.size()});
+        alignas(64) float values[k_few];  // whole vectors in one cache line each
+        functions.values_at(direction, values);
         return kernels::weighted_sum(values, c);
     }
-    const Scratch values(c.size());
-    functions.values_at(direction, {values.data(), c.size()});
+    const Scratch values(round_up_to_lanes(c.size()));
+    functions.values_at(direction, values.data());
     return kernels::weighted_sum(values.data(), c);
 }
 

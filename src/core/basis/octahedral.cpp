@@ -5,6 +5,7 @@
 #include <array>
 #include <charconv>
 
+#include "core/basis/turned_block.h"
 #include "core/math/quadrature.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -112,11 +113,9 @@ class Centroids final : public LinearEvaluator {
     }
     [[nodiscard]] std::size_t size() const override { return cells_.size(); }
     void values(DirectionView block, float* rows) const override {
-        Directions turned(k_block_size);
-        for (std::size_t j = 0; j < block.size; ++j)
-            set_entry(turned.view(), j, rotate(map_from_domain_, direction_at(block, j)));
+        const TurnedBlock turned(block, map_from_domain_);
         for (std::size_t i = 0; i < cells_.size(); ++i)
-            HWY_DYNAMIC_DISPATCH(CentroidRow)(cells_[i], turned.view().part(0, block.size), rows + i * k_block_size);
+            HWY_DYNAMIC_DISPATCH(CentroidRow)(cells_[i], turned.view(), rows + i * k_block_size);
     }
 
   private:
@@ -201,8 +200,8 @@ void OctahedralTexels::values(DirectionView block, float* rows) const {
         rows[map_.index(rotate(map_from_domain_, direction_at(block, j))) * k_block_size + j] = 1;
 }
 
-void OctahedralTexels::values_at(Vec3 direction, std::span<float> values) const {
-    std::fill(values.begin(), values.end(), 0.0f);
+void OctahedralTexels::values_at(Vec3 direction, float* values) const {
+    std::fill_n(values, size(), 0.0f);
     values[map_.index(rotate(map_from_domain_, direction))] = 1;
 }
 

@@ -37,7 +37,7 @@ class OctahedralTexels final : public LinearBasis {
 
     [[nodiscard]] std::size_t size() const override { return map_.size(); }
     void values(DirectionView block, float* rows) const override;
-    void values_at(Vec3 direction, std::span<float> values) const override;
+    void values_at(Vec3 direction, float* values) const override;
     void radiance(std::span<const Rgb> c, DirectionView directions, MutableColourView out) const override;
     [[nodiscard]] Rgb radiance_at(std::span<const Rgb> c, Vec3 direction) const override;
     [[nodiscard]] std::string name() const override { return "oct" + std::to_string(map_.resolution); }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <type_traits>
+#include <utility>
 
 #include "core/math/quadrature.h"
 
@@ -24,6 +25,17 @@ using lobelia::HWY_NAMESPACE::DC;
 using lobelia::HWY_NAMESPACE::Lanes3;
 using lobelia::HWY_NAMESPACE::load;
 
+/// Calls call(i) for i = 0 .. last; where `last` is a constant, so is each i, and all is unrolled.
+template <class Call>
+HWY_INLINE void for_each_up_to(std::size_t last, const Call& call) {
+    for (std::size_t i = 0; i <= last; ++i) call(i);
+}
+template <std::size_t last, class Call>
+HWY_INLINE void for_each_up_to(std::integral_constant<std::size_t, last>, const Call& call) {
+    [&]<std::size_t... i>(std::index_sequence<i...>) HWY_ATTR { (call(std::integral_constant<std::size_t, i>()), ...); }
+    (std::make_index_sequence<last + 1>());
+}
+
 /// Calls `visit(l, i, value)` for the harmonics of the bands l that are `wanted`, at the directions (x, y, z); `table`
 /// holds for each order m its first value Q_m^m, then a pair (a, a b) for each l > m, with Q_l = a z Q_{l-1} - a b
 /// Q_{l-2}. `degree` is a number, or a constant so that all is unrolled.
@@ -32,7 +44,7 @@ HWY_INLINE void for_each_harmonic(Tag d, Degree degree, const float* table, hn::
                                   hn::Vec<Tag> z, const Wanted& wanted, const Visit& visit) {
     using Vec = hn::Vec<Tag>;
     Vec cosine = hn::Set(d, 1.0f), sine = hn::Zero(d);
-    for (std::size_t m = 0; m <= degree; ++m) {
+    for_each_up_to(degree, [&](auto m) HWY_ATTR {
         Vec q = hn::Set(d, *table++), previous = hn::Zero(d);
         for (std::size_t l = m; l <= degree; ++l) {
             if (wanted(l)) {
@@ -50,7 +62,7 @@ HWY_INLINE void for_each_harmonic(Tag d, Degree degree, const float* table, hn::
         const Vec turned = hn::NegMulAdd(y, sine, hn::Mul(x, cosine));
         sine = hn::MulAdd(x, sine, hn::Mul(y, cosine));
         cosine = turned;
-    }
+    });
 }
 
 constexpr auto k_every_band = [](std::size_t) { return true; };
@@ -112,29 +124,34 @@ void Sum(std::size_t degree, const float* table, const Rgb* c, DirectionView dir
         out);
 }
 
-/// At one direction, red, green and blue side by side in a vector. Bands of factor 0 are left out.
-template <class Degree>
-Rgb sum_at(Degree degree, const float* table, const Rgb* c, const float* factors, const Vec3& w) {
+/// At one direction, red, green and blue side by side in a vector.
+template <class Degree, class Wanted>
+HWY_INLINE Rgb sum_at(Degree degree, const Wanted& wanted, const float* table, const Rgb* c, const float* factors,
+                      const Vec3& w) {
     const DC d;
     ColourSum sum(c, (degree + 1) * (degree + 1));
-    for_each_harmonic(
-        d, degree, table, hn::Set(d, w.x), hn::Set(d, w.y), hn::Set(d, w.z),
-        [&](std::size_t l) { return factors[l] != 0; },
-        [&](std::size_t l, std::size_t i, hn::Vec<DC> value)
-            HWY_ATTR { sum.add(i, hn::Mul(value, hn::Set(d, factors[l]))); });
+    for_each_harmonic(d, degree, table, hn::Set(d, w.x), hn::Set(d, w.y), hn::Set(d, w.z), wanted,
+                      [&](std::size_t l, std::size_t i, hn::Vec<DC> value)
+                          HWY_ATTR { sum.add(i, hn::Mul(value, hn::Set(d, factors[l]))); });
     return sum.total();
+}
+template <std::size_t degree>
+Rgb sum_at_unrolled(const float* table, const Rgb* c, const float* factors, const Vec3& w) {
+    return sum_at(std::integral_constant<std::size_t, degree>(), k_every_band, table, c, factors, w);
 }
 
 Rgb SumAt(std::size_t degree, const float* table, const Rgb* c, const float* factors, const Vec3& w) {
     switch (degree) {
         case 1:
-            return sum_at(std::integral_constant<std::size_t, 1>(), table, c, factors, w);
+            return sum_at_unrolled<1>(table, c, factors, w);
         case 2:
-            return sum_at(std::integral_constant<std::size_t, 2>(), table, c, factors, w);
+            return sum_at_unrolled<2>(table, c, factors, w);
         case 3:
-            return sum_at(std::integral_constant<std::size_t, 3>(), table, c, factors, w);
+            return sum_at_unrolled<3>(table, c, factors, w);
         default:
-            return sum_at(degree, table, c, factors, w);
+            // Leave out the bands that irradiance does not have.
+            return sum_at(
+                degree, [&](std::size_t l) { return factors[l] != 0; }, table, c, factors, w);
     }
 }
 
@@ -194,9 +211,8 @@ void Harmonics::sum(std::span<const Rgb> c, DirectionView directions, MutableCol
     HWY_DYNAMIC_DISPATCH(Sum)(degree_, table_.data(), c.data(), directions, out);
 }
 
-void Harmonics::values_at(Vec3 direction, std::span<float> values) const {
-    assert(values.size() == size());
-    HWY_DYNAMIC_DISPATCH(ValuesAt)(degree_, table_.data(), direction, values.data());
+void Harmonics::values_at(Vec3 direction, float* values) const {
+    HWY_DYNAMIC_DISPATCH(ValuesAt)(degree_, table_.data(), direction, values);
 }
 
 Rgb Harmonics::sum_at(std::span<const Rgb> c, std::span<const float> band_factors, Vec3 direction) const {

@@ -196,8 +196,14 @@ void CombineEach(const float* rows, std::span<const float* const> c, std::size_t
 }
 
 Rgb WeightedSum(const float* weights, std::span<const Rgb> c) {
+    const lobelia::HWY_NAMESPACE::DC d;
     lobelia::HWY_NAMESPACE::ColourSum sum(c.data(), c.size());
-    for (std::size_t i = 0; i < c.size(); ++i) sum.add(i, hn::Set(lobelia::HWY_NAMESPACE::DC(), weights[i]));
+    std::size_t i = 0;
+    for (; i + 2 <= c.size(); i += 2) {
+        sum.add_even(i, hn::Set(d, weights[i]));
+        sum.add_odd(i + 1, hn::Set(d, weights[i + 1]));
+    }
+    if (i < c.size()) sum.add_even(i, hn::Set(d, weights[i]));
     return sum.total();
 }
 

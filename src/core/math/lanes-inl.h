@@ -59,6 +59,8 @@ class ColourSum {
   public:
     ColourSum(const Rgb* c, std::size_t) : c_(c) {}
     void add(std::size_t i, hn::Vec<DC> weight) { sum_ = sum_ + c_[i] * hn::GetLane(weight); }
+    void add_even(std::size_t i, hn::Vec<DC> weight) { add(i, weight); }
+    void add_odd(std::size_t i, hn::Vec<DC> weight) { add(i, weight); }
     [[nodiscard]] Rgb total() const { return sum_; }
 
   private:
@@ -70,10 +72,14 @@ using DC = hn::CappedTag<float, 4>;
 class ColourSum {
   public:
     HWY_INLINE ColourSum(const Rgb* c, std::size_t count) : c_(c), count_(count) {}
+    // Two sums, so that additions do not all wait for each other.
+    HWY_INLINE void add_even(std::size_t i, hn::Vec<DC> weight) { even_ = hn::MulAdd(colour(i), weight, even_); }
+    HWY_INLINE void add_odd(std::size_t i, hn::Vec<DC> weight) { odd_ = hn::MulAdd(colour(i), weight, odd_); }
     HWY_INLINE void add(std::size_t i, hn::Vec<DC> weight) {
-        // Two sums, so that additions do not all wait for each other.
-        hn::Vec<DC>& sum = i % 2 == 0 ? even_ : odd_;
-        sum = hn::MulAdd(colour(i), weight, sum);
+        if (i % 2 == 0)
+            add_even(i, weight);
+        else
+            add_odd(i, weight);
     }
     [[nodiscard]] HWY_INLINE Rgb total() const {
         alignas(16) float lanes[4];
@@ -87,8 +93,8 @@ class ColourSum {
     [[nodiscard]] HWY_INLINE hn::Vec<DC> colour(std::size_t i) const {
         const DC d;
         const float* const first = &c_[i].r;
-        if (i + 1 < count_) return hn::LoadU(d, first);
-        if (i > 0) return hn::Shuffle0321(hn::LoadU(d, first - 1));
+        if (HWY_LIKELY(i + 1 < count_)) return hn::LoadU(d, first);
+        if (HWY_LIKELY(i > 0)) return hn::Shuffle0321(hn::LoadU(d, first - 1));
         alignas(16) const float only[4] = {c_[0].r, c_[0].g, c_[0].b, 0};
         return hn::Load(d, only);
     }

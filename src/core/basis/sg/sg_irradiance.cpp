@@ -231,8 +231,7 @@ void WeightsAt(SgIrradiance kind, DirectionView axes, const float* rows, std::si
         for (std::size_t i = 0; i < axes.size; i += hn::Lanes(d)) {
             const Lanes3 p = {hn::LoadU(d, axes.channel(0) + i), hn::LoadU(d, axes.channel(1) + i),
                               hn::LoadU(d, axes.channel(2) + i)};
-            store(d, decltype(formula)::eval(d, ManyLobes{rows, stride, count, i}, dot(d, n, p)), weights, i,
-                  axes.size);
+            hn::StoreU(decltype(formula)::eval(d, ManyLobes{rows, stride, count, i}, dot(d, n, p)), d, weights + i);
         }
     });
 }
@@ -438,10 +437,9 @@ void SgIrradianceWeights::values(DirectionView block, float* rows) const {
     }
 }
 
-void SgIrradianceWeights::values_at(Vec3 normal, std::span<float> values) const {
-    assert(values.size() == size());
+void SgIrradianceWeights::values_at(Vec3 normal, float* values) const {
     if (constant_count_ > 0) HWY_DYNAMIC_DISPATCH(WeightsAt)
-    (kind_, axes_.view(), constant_rows_.data(), constant_count_, lobe_stride_, normal, values.data());
+    (kind_, axes_.view(), constant_rows_.data(), constant_count_, lobe_stride_, normal, values);
     for (const std::size_t i : ambient_) values[i] = static_cast<float>(k_pi);
 }
 

@@ -35,7 +35,7 @@ class SgIrradianceWeights final : public LinearEvaluator {
     [[nodiscard]] Accuracy accuracy() const override;
     [[nodiscard]] std::size_t size() const override { return lobes_.size(); }
     void values(DirectionView block, float* rows) const override;
-    void values_at(Vec3 normal, std::span<float> values) const override;
+    void values_at(Vec3 normal, float* values) const override;
 
   private:
     SgIrradiance kind_;

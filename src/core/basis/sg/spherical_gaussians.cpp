@@ -40,13 +40,13 @@ void GaussianRow(const Lobe& lobe, DirectionView block, float* row) {
         hn::StoreU(gaussian_value(d, load(d, block, j), p, sharpness), d, row + j);
 }
 
-/// Lanes run over lobes: rows x, y, z, sharpness of `lobes`, `values.size()` in number.
-void GaussiansAt(const float* const* lobes, Vec3 direction, std::span<float> values) {
+/// Lanes run over `count` lobes: rows x, y, z, sharpness of `lobes`, whole lanes of them.
+void GaussiansAt(const float* const* lobes, std::size_t count, Vec3 direction, float* values) {
     const D d;
     const Lanes3 s = {hn::Set(d, direction.x), hn::Set(d, direction.y), hn::Set(d, direction.z)};
-    for (std::size_t i = 0; i < values.size(); i += hn::Lanes(d)) {
+    for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
         const Lanes3 p = {hn::LoadU(d, lobes[0] + i), hn::LoadU(d, lobes[1] + i), hn::LoadU(d, lobes[2] + i)};
-        store(d, gaussian_value(d, s, p, hn::LoadU(d, lobes[3] + i)), values.data(), i, values.size());
+        hn::StoreU(gaussian_value(d, s, p, hn::LoadU(d, lobes[3] + i)), d, values + i);
     }
 }
 
@@ -249,8 +249,8 @@ void SphericalGaussians::values(DirectionView block, float* rows) const {
     for (std::size_t i = 0; i < lobes_.size(); ++i) gaussian_row(lobes_[i], block, rows + i * k_block_size);
 }
 
-void SphericalGaussians::values_at(Vec3 direction, std::span<float> values) const {
-    HWY_DYNAMIC_DISPATCH(GaussiansAt)(rows_.view().pointers.data(), direction, values);
+void SphericalGaussians::values_at(Vec3 direction, float* values) const {
+    HWY_DYNAMIC_DISPATCH(GaussiansAt)(rows_.view().pointers.data(), lobes_.size(), direction, values);
 }
 
 std::string SphericalGaussians::description() const {

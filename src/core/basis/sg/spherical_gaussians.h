@@ -32,7 +32,7 @@ class SphericalGaussians final : public LinearBasis {
 
     [[nodiscard]] std::size_t size() const override { return lobes_.size(); }
     void values(DirectionView block, float* rows) const override;
-    void values_at(Vec3 direction, std::span<float> values) const override;
+    void values_at(Vec3 direction, float* values) const override;
     [[nodiscard]] std::string name() const override { return name_; }
     [[nodiscard]] std::string description() const override;
     [[nodiscard]] Domain domain() const override { return domain_; }

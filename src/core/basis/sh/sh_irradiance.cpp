@@ -91,7 +91,7 @@ class BandFactors final : public LinearEvaluator {
             for (std::size_t j = 0; j < block.size; ++j) rows[i * k_block_size + j] *= scale;
         });
     }
-    void values_at(Vec3 direction, std::span<float> values) const override {
+    void values_at(Vec3 direction, float* values) const override {
         harmonics_.values_at(direction, values);
         for_each_coefficient(harmonics_.degree(),
                              [&](std::size_t l, std::size_t i) { values[i] *= float_factors_[l]; });

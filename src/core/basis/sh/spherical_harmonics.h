@@ -20,7 +20,7 @@ class SphericalHarmonics final : public LinearBasis {
     void radiance(std::span<const Rgb> c, DirectionView directions, MutableColourView out) const override {
         harmonics_.sum(c, directions, out);
     }
-    void values_at(Vec3 direction, std::span<float> values) const override { harmonics_.values_at(direction, values); }
+    void values_at(Vec3 direction, float* values) const override { harmonics_.values_at(direction, values); }
     [[nodiscard]] Rgb radiance_at(std::span<const Rgb> c, Vec3 direction) const override {
         return harmonics_.sum_at(c, ones_, direction);
     }
