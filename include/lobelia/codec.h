@@ -20,7 +20,10 @@ struct CodecName {
 class Codec {
   public:
     Codec(CodecName name, std::shared_ptr<const Encoder> encoder, std::shared_ptr<const Evaluator> evaluator)
-        : name_(std::move(name)), encoder_(std::move(encoder)), evaluator_(std::move(evaluator)) {}
+        : name_(std::move(name)),
+          encoder_(std::move(encoder)),
+          evaluator_(std::move(evaluator)),
+          negative_(evaluator_->negative()) {}
 
     [[nodiscard]] const CodecName& name() const { return name_; }
     [[nodiscard]] const Basis& basis() const { return encoder_->basis(); }
@@ -40,6 +43,7 @@ class Codec {
     CodecName name_;
     std::shared_ptr<const Encoder> encoder_;
     std::shared_ptr<const Evaluator> evaluator_;
+    Negative negative_;
 };
 
 // ---- From names. No name opens a file, so names may come from untrusted files. ----

@@ -221,18 +221,21 @@ std::vector<Rgb> Codec::encode(SampleView samples) const {
 
 void Codec::radiance(std::span<const Rgb> c, DirectionView directions, MutableColourView out) const {
     basis().radiance(c, directions, out);
-    if (evaluator_->negative() == Negative::clamped) clamp_negative(out);
+    if (negative_ == Negative::clamped) clamp_negative(out);
 }
 
 Rgb Codec::radiance(std::span<const Rgb> c, Vec3 direction) const {
-    const Rgb signed_radiance = basis().radiance_at(c, direction);
-    return evaluator_->negative() == Negative::clamped ? clamp_negative(signed_radiance) : signed_radiance;
+    const Rgb radiance = basis().radiance_at(c, direction);
+    return negative_ == Negative::clamped ? clamp_negative(radiance) : radiance;
 }
 
 void Codec::irradiance(std::span<const Rgb> c, DirectionView normals, MutableColourView out) const {
     lobelia::irradiance(*evaluator_, c, normals, out);
 }
 
-Rgb Codec::irradiance(std::span<const Rgb> c, Vec3 normal) const { return lobelia::irradiance(*evaluator_, c, normal); }
+Rgb Codec::irradiance(std::span<const Rgb> c, Vec3 normal) const {
+    const Rgb irradiance = evaluator_->signed_irradiance_at(c, normal);
+    return negative_ == Negative::clamped ? clamp_negative(irradiance) : irradiance;
+}
 
 }  // namespace lobelia

@@ -1,6 +1,6 @@
-// GGX in single precision, for the inner loops of the path tracer. ggx.h has the same in double precision, with pdfs and
-// inverses; a test holds the two to each other. `width` is alpha; directions are in the frame of the normal.
-// Walter et al. 2007; Heitz 2018 (visible normals).
+// GGX in single precision, for the inner loops of the path tracer. ggx.h has the same in double precision, with pdfs
+// and inverses; a test holds the two to each other. `width` is alpha; directions are in the frame of the normal. Walter
+// et al. 2007; Heitz 2018 (visible normals).
 #pragma once
 
 #include "core/sample/directions.h"

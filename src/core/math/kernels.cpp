@@ -196,15 +196,7 @@ void CombineEach(const float* rows, std::span<const float* const> c, std::size_t
 }
 
 Rgb WeightedSum(const float* weights, std::span<const Rgb> c) {
-    const lobelia::HWY_NAMESPACE::DC d;
-    lobelia::HWY_NAMESPACE::ColourSum sum(c.data(), c.size());
-    std::size_t i = 0;
-    for (; i + 2 <= c.size(); i += 2) {
-        sum.add_even(i, hn::Set(d, weights[i]));
-        sum.add_odd(i + 1, hn::Set(d, weights[i + 1]));
-    }
-    if (i < c.size()) sum.add_even(i, hn::Set(d, weights[i]));
-    return sum.total();
+    return lobelia::HWY_NAMESPACE::weighted_sum(weights, c.data(), c.size());
 }
 
 void TransformRows(const float* rows, std::size_t count, const float* matrix, std::size_t size, float* to) {

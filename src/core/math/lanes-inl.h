@@ -105,6 +105,19 @@ class ColourSum {
 };
 #endif
 
+/// sum_i weights_i c_i of `count` colours.
+HWY_INLINE Rgb weighted_sum(const float* weights, const Rgb* c, std::size_t count) {
+    const DC d;
+    ColourSum sum(c, count);
+    std::size_t i = 0;
+    for (; i + 2 <= count; i += 2) {
+        sum.add_even(i, hn::Set(d, weights[i]));
+        sum.add_odd(i + 1, hn::Set(d, weights[i + 1]));
+    }
+    if (i < count) sum.add_even(i, hn::Set(d, weights[i]));
+    return sum.total();
+}
+
 }  // namespace lobelia::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

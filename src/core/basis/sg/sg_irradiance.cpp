@@ -223,17 +223,29 @@ void FillRow(SgIrradiance kind, const Vec3& axis, std::span<const float> k, Dire
     with_formula(kind, [&](auto formula) HWY_ATTR { fill_row<decltype(formula)>(axis, k, block, row); });
 }
 
-/// All lobes at one normal; `axes` and `rows` are padded to whole lanes.
-void WeightsAt(SgIrradiance kind, DirectionView axes, const float* rows, std::size_t count, std::size_t stride,
+/// All `count` lobes at one normal. `rows` are their axes x, y, z and their `constants` constants, `stride` floats from
+/// row to row, padded to whole lanes as `weights` are.
+void WeightsAt(SgIrradiance kind, const float* rows, std::size_t stride, std::size_t count, std::size_t constants,
                const Vec3& n, float* weights) {
     with_formula(kind, [&](auto formula) HWY_ATTR {
         const D d;
-        for (std::size_t i = 0; i < axes.size; i += hn::Lanes(d)) {
-            const Lanes3 p = {hn::LoadU(d, axes.channel(0) + i), hn::LoadU(d, axes.channel(1) + i),
-                              hn::LoadU(d, axes.channel(2) + i)};
-            hn::StoreU(decltype(formula)::eval(d, ManyLobes{rows, stride, count, i}, dot(d, n, p)), d, weights + i);
+        for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
+            const Lanes3 p = {hn::LoadU(d, rows + i), hn::LoadU(d, rows + stride + i),
+                              hn::LoadU(d, rows + 2 * stride + i)};
+            const ManyLobes k{rows + 3 * stride, stride, constants, i};
+            hn::StoreU(decltype(formula)::eval(d, k, dot(d, n, p)), d, weights + i);
         }
     });
+}
+
+/// The sum of coefficients times these weights, for at most k_few_lobes lobes; `ambient` are the lobes whose weight is
+/// pi.
+Rgb IrradianceAt(SgIrradiance kind, const float* rows, std::size_t stride, std::size_t constants,
+                 std::span<const std::size_t> ambient, std::span<const Rgb> c, const Vec3& n) {
+    alignas(64) float weights[k_few_lobes];
+    WeightsAt(kind, rows, stride, c.size(), constants, n, weights);
+    for (const std::size_t i : ambient) weights[i] = static_cast<float>(k_pi);
+    return weighted_sum(weights, c.data(), c.size());
 }
 
 }  // namespace lobelia::HWY_NAMESPACE
@@ -244,6 +256,7 @@ namespace lobelia {
 
 HWY_EXPORT(FillRow);
 HWY_EXPORT(WeightsAt);
+HWY_EXPORT(IrradianceAt);
 
 namespace {
 
@@ -395,7 +408,7 @@ std::vector<double> fit_even_part(double sharpness, std::size_t count) {
 }
 
 SgIrradianceWeights::SgIrradianceWeights(SgIrradiance kind, std::vector<gaussian::Lobe> lobes)
-    : kind_(kind), lobes_(std::move(lobes)), axes_(lobes_.size()) {
+    : kind_(kind), lobes_(std::move(lobes)) {
     for (std::size_t i = 0; i < lobes_.size(); ++i) {
         // Lobes mostly share one sharpness: then their constants are the same.
         if (i > 0 && lobes_[i].sharpness == lobes_[i - 1].sharpness) {
@@ -411,10 +424,12 @@ SgIrradianceWeights::SgIrradianceWeights(SgIrradiance kind, std::vector<gaussian
     // Lay axes and constants out for lanes that run over the lobes. Series end with terms of 0, which add nothing.
     for (const auto& k : constants_) constant_count_ = std::max(constant_count_, k.size());
     lobe_stride_ = round_up_to_lanes(lobes_.size());
-    constant_rows_.resize(constant_count_ * lobe_stride_);
+    lobe_rows_.resize((3 + constant_count_) * lobe_stride_);
     for (std::size_t i = 0; i < lobes_.size(); ++i) {
-        set_entry(axes_.view(), i, lobes_[i].axis);
-        for (std::size_t k = 0; k < constants_[i].size(); ++k) constant_rows_[k * lobe_stride_ + i] = constants_[i][k];
+        const Vec3& axis = lobes_[i].axis;
+        std::vector<float> column = {axis.x, axis.y, axis.z};
+        column.insert(column.end(), constants_[i].begin(), constants_[i].end());
+        for (std::size_t k = 0; k < column.size(); ++k) lobe_rows_[k * lobe_stride_ + i] = column[k];
         if (is_ambient(lobes_[i])) ambient_.push_back(i);
     }
 }
@@ -439,8 +454,15 @@ void SgIrradianceWeights::values(DirectionView block, float* rows) const {
 
 void SgIrradianceWeights::values_at(Vec3 normal, float* values) const {
     if (constant_count_ > 0) HWY_DYNAMIC_DISPATCH(WeightsAt)
-    (kind_, axes_.view(), constant_rows_.data(), constant_count_, lobe_stride_, normal, values);
+    (kind_, lobe_rows_.data(), lobe_stride_, lobes_.size(), constant_count_, normal, values);
     for (const std::size_t i : ambient_) values[i] = static_cast<float>(k_pi);
+}
+
+Rgb SgIrradianceWeights::signed_irradiance_at(std::span<const Rgb> c, Vec3 normal) const {
+    assert(c.size() == size());
+    if (size() > k_few_lobes) return evaluate(*this, c, normal);
+    return HWY_DYNAMIC_DISPATCH(IrradianceAt)(kind_, lobe_rows_.data(), lobe_stride_, constant_count_, ambient_, c,
+                                              normal);
 }
 
 std::vector<float> sg_irradiance(SgIrradiance kind, double sharpness, std::span<const float> cosines) {
