@@ -69,6 +69,15 @@ Result<Codec> put_together(CodecName name, const BasisPtr& basis) {
     return Codec(std::move(name), *encoder, *evaluator);
 }
 
+/// Clamps where `negative` says so. What needs no clamping is handed on as it came: to take a colour apart and put it
+/// together again costs as much as evaluating it.
+Rgb cut(Rgb c, Negative negative) {
+    const bool below = c.r < 0 || c.g < 0 || c.b < 0;
+    if (below && negative == Negative::clamped) [[unlikely]]
+        return clamp_negative(c);
+    return c;
+}
+
 }  // namespace
 
 std::vector<std::string> basis_names() {
@@ -225,8 +234,7 @@ void Codec::radiance(std::span<const Rgb> c, DirectionView directions, MutableCo
 }
 
 Rgb Codec::radiance(std::span<const Rgb> c, Vec3 direction) const {
-    const Rgb radiance = basis().radiance_at(c, direction);
-    return negative_ == Negative::clamped ? clamp_negative(radiance) : radiance;
+    return cut(basis().radiance_at(c, direction), negative_);
 }
 
 void Codec::irradiance(std::span<const Rgb> c, DirectionView normals, MutableColourView out) const {
@@ -234,8 +242,7 @@ void Codec::irradiance(std::span<const Rgb> c, DirectionView normals, MutableCol
 }
 
 Rgb Codec::irradiance(std::span<const Rgb> c, Vec3 normal) const {
-    const Rgb irradiance = evaluator_->signed_irradiance_at(c, normal);
-    return negative_ == Negative::clamped ? clamp_negative(irradiance) : irradiance;
+    return cut(evaluator_->signed_irradiance_at(c, normal), negative_);
 }
 
 }  // namespace lobelia
