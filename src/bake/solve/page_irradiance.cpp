@@ -9,9 +9,9 @@
 #include "lobelia/evaluate.h"
 
 namespace lobelia {
-std::vector<Rgb> page_irradiance(const Page& page, const PageLayout& layout, std::span<const Vec3> normals, Frame frame,
-                                 const Evaluator& evaluator) {
-    assert(normals.size() == page.size() && page.planes.size() == layout.channels());
+std::vector<Rgb> page_irradiance(const LightmapPage& page, const PageChannels& channels, std::span<const Vec3> normals,
+                                 Frame frame, const Evaluator& evaluator) {
+    assert(normals.size() == page.size() && page.planes.size() == channels.count());
     std::vector<Rgb> result(page.size());
     const auto read = [&](std::size_t begin, std::size_t end) {
         // Where nothing was baked, any direction will do.
@@ -19,7 +19,7 @@ std::vector<Rgb> page_irradiance(const Page& page, const PageLayout& layout, std
         const auto is_baked = [&](std::size_t i) { return !(normals[i] == Vec3{}); };
         for (std::size_t i = begin; i < end; ++i)
             set_entry(directions.view(), i - begin, frame == Frame::world && is_baked(i) ? normals[i] : Vec3{0, 0, 1});
-        std::vector<const float*> c(3 * layout.coefficients);
+        std::vector<const float*> c(3 * channels.coefficients);
         for (std::size_t plane = 0; plane < c.size(); ++plane) c[plane] = page.planes[plane].data() + begin;
         Colours values(end - begin);
         irradiance(evaluator, c, directions, values);
