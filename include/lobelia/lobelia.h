@@ -39,17 +39,22 @@
 // Bases and their evaluators, and the mathematics under them.
 #include "lobelia/evaluator.h"
 #include "lobelia/basis.h"
+#include "lobelia/bases.h"
 
 // Glossy reflection.
 #include "lobelia/specular.h"
 
 // Encoders.
 #include "lobelia/encoder.h"
+#include "lobelia/encoders.h"
 
 // Coefficients in fewer bytes.
 #include "lobelia/pixel_format.h"
 #include "lobelia/texture_layout.h"
 #include "lobelia/storage.h"
+
+// Evaluation where each texel has coefficients of its own, from planes or from packed textures.
+#include "lobelia/evaluate.h"
 
 // Coefficients as others write them.
 #include "lobelia/sh_conventions.h"

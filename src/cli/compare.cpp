@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/common.h"
+#include "cli/lobe_files.h"
 #include "cli/verbs.h"
 #include "io/write_file.h"
 #include "measure/recipe.h"
@@ -209,6 +210,7 @@ Verb add_compare(CLI::App& app) {
                                              "Only these bases; also others than the listed, see lobelia list --axes");
     CLI::Option* encoder = command->add_option("--encoder", options->encoders, "Only these encoders");
     CLI::Option* evaluator = command->add_option("--evaluator", options->evaluators, "Only these evaluators");
+    for (CLI::Option* named : {codec, basis}) named->transform(CLI::Validator(replace_lobe_file, ""));
     for (CLI::Option* filter : {basis, encoder, evaluator}) codec->excludes(filter);
     CLI::Option* storage = command->add_option("--storage", options->storages,
                                                "Also store the coefficients so and judge what is read back; all: in "

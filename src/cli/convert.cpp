@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/common.h"
+#include "cli/lobe_files.h"
 #include "cli/verbs.h"
 #include "core/math/harmonics.h"
 #include "report/convention_json.h"
@@ -104,6 +105,7 @@ Verb add_convert(CLI::App& app) {
     command
         ->add_option("--codec", options->codec,
                      "The codec that the written file names (default: the first of the list that has its degree)")
+        ->transform(CLI::Validator(replace_lobe_file, ""))
         ->excludes(to);
     command->add_option("-o,--output", options->out, "The file to write")->required();
     return {command, [options] { return convert_verb(*options); }};

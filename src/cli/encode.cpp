@@ -9,6 +9,7 @@
 #include "cli/bake_input.h"
 #include "cli/common.h"
 #include "cli/eval_bake.h"
+#include "cli/lobe_files.h"
 #include "cli/verbs.h"
 #include "io/write_file.h"
 #include "io/write_image.h"
@@ -186,7 +187,9 @@ Verb add_encode(CLI::App& app) {
     CLI::App* command = app.add_subcommand("encode", "Encode an environment; write its coefficients as JSON");
     add_environment_options(*command, options->environment);
     add_sampling_options(*command, options->sampling);
-    command->add_option("--codec", options->codec, "basis/encoder/evaluator, see lobelia list")->required();
+    command->add_option("--codec", options->codec, "basis/encoder/evaluator, see lobelia list")
+        ->transform(CLI::Validator(replace_lobe_file, ""))
+        ->required();
     command->add_option("-o,--output", options->out, "The file to write")->required();
     return {command, [options] { return encode_verb(*options); }};
 }

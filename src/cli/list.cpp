@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "cli/lobe_files.h"
 #include "cli/verbs.h"
 #include "core/storage/layout_text.h"
 #include "lobelia/codec.h"
@@ -65,6 +66,8 @@ void print_axes() {
     fmt::print("bases\n");
     for (const auto& name : basis_names()) fmt::print("  {:<20} {}\n", name, make_basis(name).value()->description());
     for (const auto& [pattern, meaning] : basis_name_patterns()) fmt::print("  {:<20} {}\n", pattern, meaning);
+    fmt::print("  {:<20} {}\n", "sg:FILE, sgh:FILE",
+               "on the command line: lobes from a file, a line \"x y z sharpness\" each");
     fmt::print("encoders\n");
     for (const auto& name : encoder_names()) fmt::print("  {}\n", name);
     fmt::print("encoders for study, not in the product\n");
@@ -79,7 +82,6 @@ void print_axes() {
 
 /// The traits of a codec's coefficients; of a basis, those that its non-negative encoders give, where it has any.
 Result<CoefficientTraits> traits_of(const std::string& name) {
-    // A basis first: the path of a lobe file may hold slashes, too.
     const auto basis = make_basis(name);
     if (basis) return coefficient_traits(*basis);
     if (name.find('/') == std::string::npos) return basis.error();
@@ -124,6 +126,7 @@ Verb add_list(CLI::App& app) {
     auto* layouts = command->add_option("--storages", options->storages,
                                         "The textures in which each storage that suits keeps the coefficients of this "
                                         "basis or codec, instead");
+    layouts->transform(CLI::Validator(replace_lobe_file, ""));
     command->add_flag("--json", options->json, "These as JSON")->needs(layouts);
     return {command, [options, layouts]() -> Status {
                 if (layouts->count() > 0)

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/common.h"
+#include "cli/lobe_files.h"
 #include "cli/scene_input.h"
 #include "cli/verbs.h"
 #include "io/write_file.h"
@@ -67,7 +68,8 @@ Status run_bake_study(const StudyArguments& options) {
 void add_bake_options(CLI::App& command, StudyArguments& options) {
     add_scene_options(command, options.scene);
     command.add_option("--out", options.out, "Folder of the study")->capture_default_str();
-    command.add_option("--basis", options.bake.bases, "Only these bases (default: all of the list)");
+    command.add_option("--basis", options.bake.bases, "Only these bases (default: all of the list)")
+        ->transform(CLI::Validator(replace_lobe_file, ""));
     command.add_option("--texels", options.bake.texels, "How many, spread evenly, 1 to 100000")
         ->check(CLI::Range(std::size_t{1}, std::size_t{100'000}))
         ->capture_default_str();
@@ -100,7 +102,9 @@ Verb add_study(CLI::App& app) {
         command->add_subcommand("encoders", "Encoders against the number of samples, with and without path noise");
     add_environment_options(*encoders, options->environment);
     encoders->add_option("--out", options->out, "Folder of the study")->capture_default_str();
-    encoders->add_option("--basis", options->bases, "Bases to study")->capture_default_str();
+    encoders->add_option("--basis", options->bases, "Bases to study")
+        ->transform(CLI::Validator(replace_lobe_file, ""))
+        ->capture_default_str();
     encoders->add_option("--repetitions", options->encoders.repetitions, "Runs to average, 1 to 10000")
         ->check(CLI::Range(std::size_t{1}, std::size_t{10000}))
         ->capture_default_str();

@@ -272,7 +272,7 @@ class Run {
     [[nodiscard]] std::vector<Convergence> converge() {
         std::vector<ConvergenceTask> tasks;
         for (const BasisRun& run : runs_)
-            if (run.basis->linear() && run.basis->listed_encoders().empty() &&
+            if (run.basis->linear() && card_of(*run.basis).encoders.empty() &&
                 run.basis->size() <= k_most_converging_size)
                 tasks.push_back({run.basis, run.encoders, {k_sequences.begin(), k_sequences.end()}});
         return measure_convergence(environment_, tasks, {.seed = options_.seed}, [&](double done) {

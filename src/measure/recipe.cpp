@@ -5,7 +5,7 @@
 
 #include <chrono>
 
-#include "core/encode/sequential.h"
+#include "lobelia/encoders.h"
 
 namespace lobelia {
 namespace {

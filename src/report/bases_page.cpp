@@ -163,15 +163,15 @@ std::string gloss(const std::vector<BasisPtr>& family) {
 
 std::string section(const std::vector<BasisPtr>& family) {
     const Basis& first = *family.front();
-    const BasisNotes notes = first.notes();
-    std::string text = "\n## " + notes.family + "\n\n" + wrapped(members(family) + ".");
-    text += "\n```\n" + wrapped(notes.formula) + "```\n\n" + pictures(family);
-    text += wrapped("**Good at** " + notes.good_at + ".") + "\n";
-    text += wrapped("**Bad at** " + notes.bad_at + ".") + "\n";
+    const BasisCard& card = card_of(first);
+    std::string text = "\n## " + std::string(card.family) + "\n\n" + wrapped(members(family) + ".");
+    text += "\n```\n" + wrapped(std::string(card.formula)) + "```\n\n" + pictures(family);
+    text += wrapped("**Good at** " + std::string(card.good_at) + ".") + "\n";
+    text += wrapped("**Bad at** " + std::string(card.bad_at) + ".") + "\n";
     text += wrapped(ranges(family.back())) + "\n";
-    const auto listed = first.listed_encoders();
+    const bool all = first.linear() && card.encoders.empty();
     text += wrapped("Listed with " +
-                    (listed.empty() ? std::string("every encoder that suits it") : "the encoders " + joined(listed)) +
+                    (all ? std::string("every compatible encoder") : "the encoders " + joined(encoder_names(first))) +
                     "." + vectors_among(first)) +
             "\n";
     return text + evaluators(family) + gloss(family);
@@ -190,7 +190,7 @@ std::string bases_markdown() {
     std::vector<std::vector<BasisPtr>> families;
     for (const BasisPtr& basis : bases) {
         const auto found = std::find_if(families.begin(), families.end(), [&](const auto& family) {
-            return family.front()->notes().family == basis->notes().family;
+            return card_of(*family.front()).family == card_of(*basis).family;
         });
         if (found == families.end())
             families.push_back({basis});

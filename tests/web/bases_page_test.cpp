@@ -23,10 +23,10 @@ TEST(BasesPage, NamesEveryBasisAndEvaluator) {
     for (const auto& name : basis_names()) {
         const auto basis = make_basis(name).value();
         EXPECT_NE(page.find("| `" + name + "` |"), std::string::npos) << name;
-        const BasisNotes notes = basis->notes();
-        for (const auto& text : {notes.family, notes.formula, notes.good_at, notes.bad_at})
+        const BasisCard& card = card_of(*basis);
+        for (const auto& text : {card.family, card.formula, card.good_at, card.bad_at})
             EXPECT_FALSE(text.empty()) << name;
-        EXPECT_NE(page.find("## " + notes.family), std::string::npos) << name;
+        EXPECT_NE(page.find("## " + std::string(card.family)), std::string::npos) << name;
         for (const auto& evaluator : basis->evaluator_names())
             EXPECT_NE(page.find("| `" + evaluator + "` |"), std::string::npos) << name << " " << evaluator;
     }

@@ -1,5 +1,6 @@
-// Encoders that hold an estimate and correct it with every sample: running averages and progressive least squares.
-// The running average and its corrected form (Roughton 2018, 2020), and the matrix gain (new).
+// Encoders as values: sums of moments with several solvers, and estimates that every sample corrects.
+// Roughton 2018, where streaming moments are credited to P.-P. Sloan, and 2020 (the running average and its corrected
+// form); Bro and de Jong 1997 (fast NNLS). The blended moments, the joint norm and the matrix gain are new.
 #pragma once
 
 #include <optional>
@@ -7,6 +8,38 @@
 #include "lobelia/encoder.h"
 
 namespace lobelia {
+
+// ---- Encoders whose state is a sum: m = sum w B v and, where needed, G = sum w B B^T ----
+
+/// projection: c_i = s m_i, with one s such that a constant environment keeps its energy; exact for orthonormal bases.
+/// analytic_gram: G c = m with the exact Gram matrix. sampled_gram: with the sampled one, which is batch least squares.
+/// regularised: their blend (1 - k) sampled + k exact, k = n / (n + N + N^2 / 8n), n coefficients, N samples, and the
+/// moments blended likewise with those of the constant environment of the sampled mean: good at every count.
+/// non_negative: batch least squares with c >= 0 per channel. joint, joint_non_negative: the least
+/// |fit - L|^2 / |L|^2 + w |E_fit - E|^2 / |E|^2, radiance and irradiance together, blended as the regularised form.
+enum class MomentSolver {
+    projection,
+    analytic_gram,
+    sampled_gram,
+    regularised,
+    non_negative,
+    joint,
+    joint_non_negative
+};
+
+/// The share by which the diagonal of a sampled Gram matrix is raised before it is solved: above the smallest
+/// difference that sums in float32 resolve.
+inline constexpr double k_gram_ridge = 1e-6;
+
+struct MomentOptions {
+    double irradiance_weight = 1;  ///< w of the joint norm, 0 and up
+};
+
+[[nodiscard]] std::shared_ptr<const Encoder> make_moment_encoder(std::shared_ptr<const LinearBasis> basis,
+                                                                 MomentSolver solver,
+                                                                 const MomentOptions& options = {});
+
+// ---- Encoders that hold an estimate and correct it with every sample ----
 
 enum class Sign { any, non_negative };
 

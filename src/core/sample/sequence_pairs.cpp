@@ -1,12 +1,12 @@
 // Many Sobol pairs at once, in vector lanes: the same bits as pair_of.
-#include "trace/sequence.h"
+#include "core/sample/sequence.h"
 
 #include <cassert>
 
 #include "lobelia/planes.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "trace/sequence_pairs.cpp"
+#define HWY_TARGET_INCLUDE "core/sample/sequence_pairs.cpp"
 #include <hwy/foreach_target.h>  // NOLINT: must precede highway.h
 #include <hwy/highway.h>
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/sample/sequence.h"
 #include "lobelia/math.h"
-#include "trace/sequence.h"
 
 namespace lobelia {
 

@@ -1,10 +1,12 @@
 // Counter-based Owen-scrambled Sobol points: any pair of dimensions of any point of any receiver, in no order.
-// Burley 2020; hashes after Wellons 2018.
+// Burley 2020.
 #pragma once
 
 #include <cstdint>
 #include <span>
 #include <vector>
+
+#include "core/sample/scramble.h"
 
 namespace lobelia {
 
@@ -12,14 +14,6 @@ namespace lobelia {
 struct Pair {
     float a = 0, b = 0;
 };
-
-/// A hash of two numbers, uniform over 32 bits.
-[[nodiscard]] constexpr std::uint32_t mix(std::uint32_t value, std::uint32_t salt) {
-    std::uint32_t x = value + 0x9e3779b9u * (salt + 1);
-    x = (x ^ (x >> 16)) * 0x21f0aaadu;
-    x = (x ^ (x >> 15)) * 0x735a2d97u;
-    return x ^ (x >> 15);
-}
 
 /// 32 uniform bits as a number in [0, 1).
 [[nodiscard]] constexpr float unit_float(std::uint32_t bits) { return static_cast<float>(bits >> 8) * 0x1p-24f; }

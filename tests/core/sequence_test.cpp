@@ -1,5 +1,5 @@
 // Sobol pairs fill the square evenly, whatever their number, and come out the same one by one and in vectors.
-#include "trace/sequence.h"
+#include "core/sample/sequence.h"
 
 #include <gtest/gtest.h>
 #include <hwy/targets.h>
