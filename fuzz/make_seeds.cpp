@@ -22,7 +22,7 @@
 #include "io_files.h"
 #include "lobelia/storage.h"
 #include "scene/embedded.h"
-#include "scene/gltf_write.h"
+#include "lobelia/gltf.h"
 
 namespace {
 

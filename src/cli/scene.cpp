@@ -6,7 +6,7 @@
 #include "cli/verbs.h"
 #include "io/write_image.h"
 #include "scene/embedded.h"
-#include "scene/gltf_write.h"
+#include "lobelia/gltf.h"
 
 namespace lobelia::cli {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "io/read_image.h"
-#include "scene/gltf_read.h"
+#include "lobelia/gltf.h"
 
 namespace lobelia::cli {
 

@@ -9,7 +9,7 @@
 #include "cli/verbs.h"
 #include "io/counted.h"
 #include "io/read_file.h"
-#include "scene/gltf_read.h"
+#include "lobelia/gltf.h"
 #include "scene/lightmap_check.h"
 
 namespace lobelia::cli {

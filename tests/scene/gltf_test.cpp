@@ -10,7 +10,7 @@
 #include "same_scenes.h"
 #include "scene/check_scene.h"
 #include "scene/embedded.h"
-#include "scene/gltf_write.h"
+#include "lobelia/gltf.h"
 #include "scene/world.h"
 
 namespace lobelia {
