@@ -1,4 +1,6 @@
 // glTF: valid files that other readers misread, and what exporters really write.
+#include <filesystem>
+
 #include "gltf_reading.h"
 #include "scene/check_scene.h"
 #include "scene/world.h"
@@ -360,6 +362,24 @@ TEST(GltfMaterials, SamplersChooseTheFilter) {
     EXPECT_EQ(filter({{"magFilter", 9728}, {"minFilter", 9984}}), Texture::Filter::nearest);
     const GltfFile bad = textured_square({{"source", 0}, {"sampler", 0}}, {{"magFilter", 9984}});
     EXPECT_TRUE(says(gltf_error(bad.glb()), "samplers[0].magFilter: neither NEAREST nor LINEAR"));
+}
+
+/// The files from which these tests come, where they are at hand.
+TEST(GltfCases, SharedFilesAreReadOrRefusedAsTheyShould) {
+    const std::filesystem::path folder = std::filesystem::path(LOBELIA_SHARED_DIR) / "cases";
+    if (!std::filesystem::is_directory(folder)) GTEST_SKIP() << "no " << folder;
+    const auto outcome = [&](const char* name) {
+        const auto loaded = read_gltf(folder / name);
+        return loaded ? std::string("read") : loaded.error().message;
+    };
+    for (const char* good : {"d02-spot-0.5-0.5.glb", "d02-three-default-spotlight.glb", "d07-ecef-room-6378000.glb",
+                             "d19-sparse-indices.glb", "o02-integers-as-floats.gltf", "o03-no-position.glb",
+                             "o04-texture-without-source.glb", "o21-duplicate-names.glb", "o50-hand-skinned-roof.glb",
+                             "o60-texture-on-uv1.glb", "o61-nearest.glb", "o65-uv1-partly.glb"})
+        EXPECT_EQ(outcome(good), "read") << good;
+    EXPECT_TRUE(says(outcome("o01-specgloss.glb"), "gltf-transform metalrough"));
+    EXPECT_TRUE(says(outcome("o20-emission-3e38.glb"), "negative or above 1e+15"));
+    EXPECT_TRUE(says(outcome("o41-minVersion-2.1.glb"), "asset.minVersion"));
 }
 
 }  // namespace
