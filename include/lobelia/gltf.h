@@ -34,8 +34,9 @@ struct GltfReadOptions {
 /// Supported: the default scene with its visible nodes (KHR_node_visibility); instances by shared meshes and
 /// EXT_mesh_gpu_instancing; triangles, strips and fans of every index and attribute type (KHR_mesh_quantization, sparse
 /// accessors); skins and morph targets in their rest pose; metallic-roughness materials with alpha modes,
-/// KHR_materials_emissive_strength, _unlit, _ior, _specular, KHR_texture_transform; KHR_lights_punctual; perspective
-/// cameras. Other content is left out with a warning; a required extension that is not among these is an error.
+/// KHR_materials_emissive_strength, _unlit, _ior, _specular, KHR_texture_transform; PNG, JPEG and WebP textures
+/// (EXT_texture_webp); KHR_lights_punctual; perspective cameras. Other content is left out with a warning; a required
+/// extension that is not among these is an error.
 ///
 /// Every object gets a name of its own: where nodes share one, the path of names ("house/door"), then a number. A scene
 /// far from its origin is moved to it (Scene::origin), so that float positions keep their precision.

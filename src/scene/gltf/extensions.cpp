@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::string_view k_copy = "decompress the file first: gltf-transform copy IN.glb OUT.glb";
 constexpr std::string_view k_png = "convert its textures first: gltf-transform png IN.glb OUT.glb --formats \"*\"";
-constexpr std::string_view k_fallback = "its textures are read from their PNG or JPEG fallbacks only";
+constexpr std::string_view k_fallback = "its textures are read from their PNG, JPEG or WebP fallbacks only";
 constexpr std::string_view k_plain = "compressed data is not read, only its fallback";
 
 /// What the reader does with an extension.
@@ -26,7 +26,7 @@ constexpr std::array k_extensions{
     Extension{"KHR_materials_ior", Support::full}, Extension{"KHR_materials_specular", Support::full},
     Extension{"KHR_materials_unlit", Support::full}, Extension{"KHR_mesh_quantization", Support::full},
     Extension{"KHR_node_visibility", Support::full}, Extension{"KHR_texture_transform", Support::full},
-    Extension{"EXT_mesh_gpu_instancing", Support::full},
+    Extension{"EXT_mesh_gpu_instancing", Support::full}, Extension{"EXT_texture_webp", Support::full},
     // These change nothing that is baked, or only add a choice.
     Extension{"KHR_materials_variants", Support::harmless}, Extension{"KHR_xmp", Support::harmless},
     Extension{"KHR_xmp_json_ld", Support::harmless}, Extension{"KHR_animation_pointer", Support::harmless},
@@ -35,7 +35,6 @@ constexpr std::array k_extensions{
     Extension{"EXT_mesh_features", Support::harmless}, Extension{"EXT_structural_metadata", Support::harmless},
     Extension{"CESIUM_primitive_outline", Support::harmless}, Extension{"FB_geometry_metadata", Support::harmless},
     // Files without the fallback are refused where it is missed.
-    Extension{"EXT_texture_webp", Support::fallback, k_fallback, k_png},
     Extension{"EXT_texture_avif", Support::fallback, k_fallback, k_png},
     Extension{"MSFT_texture_dds", Support::fallback, k_fallback, k_png},
     Extension{"KHR_texture_basisu", Support::fallback, k_fallback,
