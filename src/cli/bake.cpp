@@ -7,6 +7,7 @@
 
 #include "cli/bake_job.h"
 #include "cli/common.h"
+#include "cli/options.h"
 #include "cli/verbs.h"
 
 namespace lobelia::cli {

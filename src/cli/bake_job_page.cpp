@@ -5,7 +5,7 @@
 #include "bake/write/page_textures.h"
 #include "cli/bake_job.h"
 #include "cli/common.h"
-#include "report/bake_page.h"
+#include "report/bake_report.h"
 
 namespace lobelia::cli {
 namespace {
@@ -41,7 +41,7 @@ Preflight preflight_of(const Baker& baker, std::optional<TraceRate> rate) {
 
 Result<std::string> job_page(const BakeJob& job, const Scene& scene, const Baker& baker, const Bake& bake,
                              const Preflight& checked, const std::atomic<bool>& stop) {
-    BakePage page = bake_page_of(scene, baker, bake);
+    BakeReport page = bake_report_of(scene, baker, bake);
     page.warnings = bake.manifest.warnings;
     add_preflight(page, checked, scene, baker.atlas(), baker.texels());
 

@@ -12,6 +12,7 @@
 #include "cli/bake_input.h"
 #include "cli/camera.h"
 #include "cli/common.h"
+#include "cli/options.h"
 #include "cli/scene_input.h"
 #include "cli/verbs.h"
 #include "io/write_image.h"
@@ -161,7 +162,7 @@ Verb add_render(CLI::App& app) {
     command->add_option("--tone", options->tone, "Of .png pictures: how what is brighter than white is shown")
         ->check(CLI::IsMember(std::vector<std::string>(k_tone_names.begin(), k_tone_names.end())))
         ->capture_default_str();
-    command->add_option("-o,--output", options->out, "The file to write: .exr, linear, or .png")->required();
+    command->add_option("-o,--out", options->out, "The file to write: .exr, linear, or .png")->required();
     return {command, [options] { return render_verb(*options); }};
 }
 

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "cli/common.h"
+#include "cli/options.h"
 #include "scene/check_scene.h"
 #include "scene/embedded.h"
 #include "scene/sky_light.h"

@@ -1,13 +1,16 @@
 // The scene argument that bake, render and others share: an embedded scene or a file, and the light around it.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "io/read_image.h"
 #include "scene/gltf_read.h"
+
+namespace CLI {
+class App;
+}
 
 namespace lobelia::cli {
 

@@ -153,7 +153,7 @@ Comparison run_recipe(Recipe recipe, const Image& environment, const ComparisonO
         environment, uniform_directions(Domain::sphere, *sequence_from_name(result.sequence), k_sample_count, 0),
         Domain::sphere);
     if (options.pictures)
-        result.pictures.references[Domain::sphere] = {radiance_of(resize(environment, k_judging_grid)),
+        result.pictures.references[Domain::sphere] = {radiance_of(resize(environment, k_measuring_grid)),
                                                       judge.irradiance_over_pi};
 
     // Both shuffled methods draw on one generator, one after the other.

@@ -65,7 +65,7 @@ Rgb colour_of(const Page& page, std::size_t plane, std::size_t i) {
 /// Adds layers with pictures at one reduction.
 class LayerWriter {
   public:
-    LayerWriter(const BakePage& bake, BakeLayers& out) : bake_(&bake), out_(&out) {}
+    LayerWriter(const BakeReport& bake, BakeLayers& out) : bake_(&bake), out_(&out) {}
 
     /// `value_at(page number, texel)` gives an Rgb or a float.
     template <class Value, class ValueAt>
@@ -90,7 +90,7 @@ class LayerWriter {
     void keep(const nlohmann::json& layer, std::size_t page, Picture picture) {
         out_->pictures[fmt::format("{} {}", layer["name"].get<std::string>(), page)] = std::move(picture);
     }
-    const BakePage* bake_;
+    const BakeReport* bake_;
     BakeLayers* out_;
 };
 
@@ -110,7 +110,7 @@ std::size_t factor_for(std::span<const Page> pages, std::size_t bytes_per_texel,
 /// Base64 of half floats, three channels or one.
 constexpr std::size_t k_colour_bytes = 8, k_number_bytes = 3;
 
-void add_irradiance(LayerWriter& writer, const BakePage& bake, std::size_t factor) {
+void add_irradiance(LayerWriter& writer, const BakeReport& bake, std::size_t factor) {
     const auto& pages = bake.light.pages;
     const auto& layout = bake.light.layout;
     const char* const group = "Irradiance";
@@ -135,7 +135,7 @@ void add_irradiance(LayerWriter& writer, const BakePage& bake, std::size_t facto
                     factor, [&](std::size_t p, std::size_t i) { return bake.codec_irradiance[p][i]; });
 }
 
-void add_quality(LayerWriter& writer, const BakePage& bake, std::size_t factor, std::vector<nlohmann::json>& layers) {
+void add_quality(LayerWriter& writer, const BakeReport& bake, std::size_t factor, std::vector<nlohmann::json>& layers) {
     const auto& pages = bake.light.pages;
     const auto& layout = bake.light.layout;
     const char* const group = "Quality";
@@ -169,7 +169,7 @@ void add_quality(LayerWriter& writer, const BakePage& bake, std::size_t factor, 
     writer.add_charts({{"name", "charts"}, {"title", "Charts"}, {"group", group}, {"kind", "charts"}}, factor);
 }
 
-void add_coefficients(LayerWriter& writer, const BakePage& bake, std::size_t factor) {
+void add_coefficients(LayerWriter& writer, const BakeReport& bake, std::size_t factor) {
     const auto& pages = bake.light.pages;
     const auto& layout = bake.light.layout;
     for (std::size_t c = 0; c < layout.coefficients; ++c) {
@@ -186,7 +186,7 @@ void add_coefficients(LayerWriter& writer, const BakePage& bake, std::size_t fac
 
 }  // namespace
 
-BakeLayers bake_layers(const BakePage& bake, const BakePageOptions& options) {
+BakeLayers bake_layers(const BakeReport& bake, const BakeReportOptions& options) {
     BakeLayers out;
     if (bake.light.pages.empty()) return out;
     // Half of the room for what every bake has, half for the coefficients, of which there may be many.

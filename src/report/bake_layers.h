@@ -4,7 +4,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "report/bake_page.h"
+#include "report/bake_report.h"
 #include "report/picture.h"
 
 namespace lobelia {
@@ -14,6 +14,6 @@ struct BakeLayers {
     std::vector<nlohmann::json> layers;
     std::map<std::string, Picture> pictures;
 };
-[[nodiscard]] BakeLayers bake_layers(const BakePage& bake, const BakePageOptions& options);
+[[nodiscard]] BakeLayers bake_layers(const BakeReport& bake, const BakeReportOptions& options);
 
 }  // namespace lobelia

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "io/counted.h"
-#include "report/bake_page.h"
+#include "report/bake_report.h"
 
 namespace lobelia {
 namespace {
@@ -29,7 +29,7 @@ Image as_linear_values(const Image8& picture) {
 
 }  // namespace
 
-void add_preflight(BakePage& page, const Preflight& preflight, const Scene& scene, const Atlas& atlas,
+void add_preflight(BakeReport& page, const Preflight& preflight, const Scene& scene, const Atlas& atlas,
                    const TexelMap& map) {
     using Level = PreflightCheck::Level;
     const auto sentences = warnings(preflight, scene);

@@ -15,7 +15,7 @@ constexpr std::array k_study_cosines = {.95f, .6f, .25f};
 constexpr std::array k_study_sharpnesses = {.5f, 2.f, 6.f, 16.f, 64.f, 256.f};
 /// Of these the published means are made.
 constexpr float k_published_low = 2, k_published_high = 64;
-constexpr std::size_t k_truth_rays = 4096, k_axes = 400;
+constexpr std::size_t k_reference_rays = 4096, k_axes = 400;
 
 /// What a lobe sends to the viewer, by rays.
 float study_by_rays(const std::vector<ggx::Ray>& rays, float sharpness, Vec3 axis) {
@@ -42,7 +42,7 @@ std::vector<StudyReading> study_readings() {
     return all;
 }
 
-/// Relative errors of one reading: root mean square over axes of the lobe, over that of the truth.
+/// Relative errors of one reading: root mean square over axes of the lobe, over that of the reference.
 struct StudyError {
     double sphere = 0, hemisphere = 0;  ///< axes everywhere, or above the horizon
 };
@@ -52,12 +52,13 @@ struct StudyCase {
     [[nodiscard]] bool is_published() const { return sharpness >= k_published_low && sharpness <= k_published_high; }
 };
 
-std::vector<StudyError> measure_gloss(const ggx::View& view, float sharpness, const std::vector<ggx::Ray>& truth_rays) {
+std::vector<StudyError> measure_specular(const ggx::View& view, float sharpness,
+                                         const std::vector<ggx::Ray>& reference_rays) {
     static const Directions axes = uniform_directions(Domain::sphere, Sequence::hammersley, k_axes, 0);
-    const auto truth = study_by_rays(truth_rays, sharpness, axes);
+    const auto reference = study_by_rays(reference_rays, sharpness, axes);
     double whole = 0, upper = 0;
     for (std::size_t i = 0; i < k_axes; ++i) {
-        const double square = static_cast<double>(truth[i] * truth[i]);
+        const double square = static_cast<double>(reference[i] * reference[i]);
         whole += square;
         if (direction_at(axes, i).z > 0) upper += square;
     }
@@ -67,7 +68,7 @@ std::vector<StudyError> measure_gloss(const ggx::View& view, float sharpness, co
                                             : study_by_rays(ggx::rays(view, reading.rays), sharpness, axes);
         StudyError e;
         for (std::size_t i = 0; i < k_axes; ++i) {
-            const double square = static_cast<double>((values[i] - truth[i]) * (values[i] - truth[i]));
+            const double square = static_cast<double>((values[i] - reference[i]) * (values[i] - reference[i]));
             e.sphere += square;
             if (direction_at(axes, i).z > 0) e.hemisphere += square;
         }
@@ -81,9 +82,9 @@ std::vector<StudyCase> all_gloss_cases() {
     for (float alpha : k_study_alphas)
         for (float cosine : k_study_cosines) {
             const auto view = ggx::make_view(cosine, alpha);
-            const auto rays = ggx::rays(view, k_truth_rays);
+            const auto rays = ggx::rays(view, k_reference_rays);
             for (float sharpness : k_study_sharpnesses)
-                cases.push_back({alpha, cosine, sharpness, measure_gloss(view, sharpness, rays)});
+                cases.push_back({alpha, cosine, sharpness, measure_specular(view, sharpness, rays)});
         }
     return cases;
 }
@@ -92,7 +93,7 @@ Study::Table mean_gloss_table(const std::vector<StudyCase>& cases) {
     Study::Table table{"Mean relative error of a lobe's reflected light",
                        "Over alpha 0.1, 0.25, 0.5, 0.8; n.v 0.95, 0.6, 0.25; sharpness 2, 6, 16, 64. Each error is a "
                        "root mean square over axes of the lobe, all over the sphere or above the horizon, divided by "
-                       "the root mean square of the truth (4096 rays).",
+                       "the root mean square of the reference (4096 rays).",
                        {"reading", "axes over the sphere", "axes above the horizon", "worst case, sphere"},
                        {}};
     const auto readings = study_readings();
@@ -137,7 +138,7 @@ Study::Table furnace_table() {
     for (float alpha : {.05f, .1f, .25f, .5f, .8f, 1.f}) {
         std::vector<std::string> row = {table_number(static_cast<double>(alpha))};
         for (float cosine : cosines) {
-            const auto lobe = ggx::lobe_by_rays(ggx::make_view(cosine, alpha), k_truth_rays);
+            const auto lobe = ggx::lobe_by_rays(ggx::make_view(cosine, alpha), k_reference_rays);
             row.push_back(table_number(static_cast<double>(lobe.albedo), 3) + " (" +
                           table_number(static_cast<double>(lobe.fresnel), 2) + ")");
         }
@@ -171,13 +172,13 @@ Study::Table harmonics_table() {
         for (float cosine : k_study_cosines)
             for (std::size_t degree : {1u, 2u, 4u, 8u}) {
                 const auto basis = std::make_shared<SphericalHarmonics>(degree);
-                const auto truth = make_sampled_specular(basis, 1024);
+                const auto reference = make_sampled_specular(basis, 1024);
                 const auto c = power_of_height(degree);
                 const PointsAtAngle points(100, cosine, alpha);
                 std::vector<std::string> row = {table_number(static_cast<double>(alpha)),
                                                 table_number(static_cast<double>(cosine)), std::to_string(degree)};
                 for (const auto& name : sh_specular_names())
-                    row.push_back(table_number(relative_gloss_error(*basis->specular(name), *truth, c, points)));
+                    row.push_back(table_number(relative_specular_error(*basis->specular(name), *reference, c, points)));
                 table.rows.push_back(row);
             }
     return table;
@@ -230,7 +231,7 @@ Study::Plot curve_plot(float alpha, float cosine, float sharpness) {
     };
     for (const auto& info : sg_specular_list())
         add(std::string(info.name), sg_specular(info.kind, view, sharpness, axes));
-    add("4096 rays", study_by_rays(ggx::rays(view, k_truth_rays), sharpness, axes));
+    add("4096 rays", study_by_rays(ggx::rays(view, k_reference_rays), sharpness, axes));
     return plot;
 }
 
@@ -299,11 +300,11 @@ PointsAtAngle::PointsAtAngle(std::size_t count, float cosine, float alpha)
     }
 }
 
-double relative_gloss_error(const SpecularEvaluator& evaluator, const SpecularEvaluator& truth, std::span<const Rgb> c,
-                            const PointsAtAngle& points) {
+double relative_specular_error(const SpecularEvaluator& evaluator, const SpecularEvaluator& reference,
+                               std::span<const Rgb> c, const PointsAtAngle& points) {
     Colours out(points.alphas.size()), exact(points.alphas.size());
     evaluator.reflected(c, points.view(), out);
-    truth.reflected(c, points.view(), exact);
+    reference.reflected(c, points.view(), exact);
     double error = 0, whole = 0;
     for (std::size_t i = 0; i < out.size(); ++i) {
         const auto e = static_cast<double>(colour_at(exact, i).g), d = static_cast<double>(colour_at(out, i).g) - e;

@@ -14,9 +14,10 @@ struct PointsAtAngle {
     [[nodiscard]] SpecularPoints view() const { return {normals, views, alphas}; }
 };
 
-/// Root mean square of the difference between two readings of the same coefficients, over that of `truth`; of green.
-[[nodiscard]] double relative_gloss_error(const SpecularEvaluator& evaluator, const SpecularEvaluator& truth,
-                                          std::span<const Rgb> c, const PointsAtAngle& points);
+/// Root mean square of the difference between two readings of the same coefficients, over that of `reference`; of
+/// green.
+[[nodiscard]] double relative_specular_error(const SpecularEvaluator& evaluator, const SpecularEvaluator& reference,
+                                             std::span<const Rgb> c, const PointsAtAngle& points);
 
 /// Error tables of every reading over roughness, view angle and sharpness, curves, and lit spheres.
 [[nodiscard]] Study study_specular();

@@ -46,10 +46,10 @@ struct Sums {
     std::size_t negative = 0;
 };
 
-/// What a texel gave: the coefficients of each method, and the truth.
+/// What a texel gave: the coefficients of each method, and the reference.
 struct Encoded {
     std::vector<std::vector<Rgb>> c;
-    Colours truth{k_normals};
+    Colours reference{k_normals};
     bool valid = true;
 };
 
@@ -150,7 +150,7 @@ class BakeStudy {
     [[nodiscard]] Encoded encode(std::size_t texel) const;
     void judge(const Unit& unit, Part& part) const;
     /// Adds to the sums of each evaluator.
-    void compare(const Subject& method, std::span<const Rgb> c, ColourView truth, std::span<Sums> sums) const;
+    void compare(const Subject& method, std::span<const Rgb> c, ColourView reference, std::span<Sums> sums) const;
 
     const Baker& baker_;
     const BakeStudyOptions& options_;
@@ -185,7 +185,7 @@ Encoded BakeStudy::encode(std::size_t index) const {
         for (const SampleView& view : {above, buffer.sources(0)}) {
             irradiance_sum(view, normals_, part);
             for (std::size_t c = 0; c < 3; ++c)
-                for (std::size_t j = 0; j < k_normals; ++j) result.truth.channel(c)[j] += part.channel(c)[j];
+                for (std::size_t j = 0; j < k_normals; ++j) result.reference.channel(c)[j] += part.channel(c)[j];
         }
         if (first >= options_.samples) continue;
         for (std::size_t m = 0; m < methods_.size(); ++m) {
@@ -194,8 +194,8 @@ Encoded BakeStudy::encode(std::size_t index) const {
             encoder.add_sources(states[m], buffer.sources(0));
         }
     }
-    scale(result.truth, static_cast<float>(2 * k_pi / options_.reference_samples));
-    result.valid = 2 * back_faces <= options_.reference_samples && luminance(colour_at(result.truth, 0)) > 0;
+    scale(result.reference, static_cast<float>(2 * k_pi / options_.reference_samples));
+    result.valid = 2 * back_faces <= options_.reference_samples && luminance(colour_at(result.reference, 0)) > 0;
     for (std::size_t m = 0; m < methods_.size(); ++m) {
         result.c.emplace_back(methods_[m].encoder->basis().size());
         methods_[m].encoder->solve(states[m], result.c.back());
@@ -210,7 +210,7 @@ void BakeStudy::judge(const Unit& unit, Part& part) const {
     for (const Encoded& texel : texels)
         if (texel.valid) {
             ++part.texels;
-            part.mean += luminance(colour_at(texel.truth, 0));
+            part.mean += luminance(colour_at(texel.reference, 0));
         }
     for (std::size_t m = 0; m < methods_.size(); ++m) {
         std::vector<std::vector<Rgb>> solved;
@@ -220,13 +220,14 @@ void BakeStudy::judge(const Unit& unit, Part& part) const {
         for (const Storage* storage : methods_[m].storages) {
             const auto read = storage == nullptr ? solved : through_storage(*storage, traits, solved);
             for (std::size_t t = 0; t < texels.size(); ++t)
-                if (texels[t].valid) compare(methods_[m], read[t], texels[t].truth, rest);
+                if (texels[t].valid) compare(methods_[m], read[t], texels[t].reference, rest);
             rest = rest.subspan(methods_[m].evaluators.size());
         }
     }
 }
 
-void BakeStudy::compare(const Subject& method, std::span<const Rgb> c, ColourView truth, std::span<Sums> sums) const {
+void BakeStudy::compare(const Subject& method, std::span<const Rgb> c, ColourView reference,
+                        std::span<Sums> sums) const {
     Colours read(k_normals);
     for (std::size_t e = 0; e < method.evaluators.size(); ++e) {
         Sums& sum = sums[e];
@@ -235,7 +236,7 @@ void BakeStudy::compare(const Subject& method, std::span<const Rgb> c, ColourVie
             if (luminance(colour_at(read, j)) < 0) ++sum.negative;
         irradiance(*method.evaluators[e], c, normals_, read);
         for (std::size_t j = 0; j < k_normals; ++j) {
-            const double off = luminance(colour_at(read, j) - colour_at(truth, j));
+            const double off = luminance(colour_at(read, j) - colour_at(reference, j));
             (j == 0 ? sum.at_normal : sum.tilted) += off * off;
         }
     }
@@ -287,8 +288,8 @@ std::vector<BakedCodec> best_readings(std::vector<BakedCodec> codecs) {
 
 }  // namespace
 
-Result<BakedCodecs> judge_baked_codecs(const Scene& scene, const BakeOptions& bake, const BakeStudyOptions& options,
-                                       const std::atomic<bool>& stop, const std::function<void(double)>& progress) {
+Result<BakedCodecs> measure_baked_codecs(const Scene& scene, const BakeOptions& bake, const BakeStudyOptions& options,
+                                         const std::atomic<bool>& stop, const std::function<void(double)>& progress) {
     auto baker = Baker::make(scene, bake);
     if (!baker) return baker.error();
     BakeStudy study(**baker, options);
@@ -304,7 +305,7 @@ Result<Study> study_bake(const Scene& scene, const BakeOptions& bake, const Bake
                          const std::atomic<bool>& stop, const std::function<void(double)>& progress) {
     BakeStudyOptions as_solved = options;
     as_solved.storages.clear();
-    const auto judged = judge_baked_codecs(scene, bake, as_solved, stop, progress);
+    const auto judged = measure_baked_codecs(scene, bake, as_solved, stop, progress);
     if (!judged) return judged.error();
     Study study;
     study.name = "bake";

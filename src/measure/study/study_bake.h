@@ -1,4 +1,4 @@
-// How far each codec's irradiance is from the truth at the texels of a scene, all codecs fed the same samples.
+// How far each codec's irradiance is from the reference at the texels of a scene, all codecs fed the same samples.
 #pragma once
 
 #include <atomic>
@@ -31,9 +31,9 @@ struct BakedCodecs {
     std::size_t texels = 0;          ///< that are valid and lit
     std::vector<BakedCodec> codecs;  ///< every basis, encoder, storage and evaluator
 };
-[[nodiscard]] Result<BakedCodecs> judge_baked_codecs(const Scene& scene, const BakeOptions& bake,
-                                                     const BakeStudyOptions& options, const std::atomic<bool>& stop,
-                                                     const std::function<void(double)>& progress = {});
+[[nodiscard]] Result<BakedCodecs> measure_baked_codecs(const Scene& scene, const BakeOptions& bake,
+                                                       const BakeStudyOptions& options, const std::atomic<bool>& stop,
+                                                       const std::function<void(double)>& progress = {});
 
 /// The same as a table: a row for each basis and encoder under its best evaluator, ordered by error; as solved.
 [[nodiscard]] Result<Study> study_bake(const Scene& scene, const BakeOptions& bake, const BakeStudyOptions& options,

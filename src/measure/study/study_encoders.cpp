@@ -79,6 +79,17 @@ void add_basis(Study& study, const std::vector<Sampling>& columns,
 
 }  // namespace
 
+std::vector<std::string> default_study_bases() {
+    std::vector<std::string> names;
+    for (Domain domain : {Domain::sphere, Domain::hemisphere})
+        for (const auto& name : basis_names())
+            if (make_basis(name).value()->domain() == domain) {
+                names.push_back(name);
+                break;
+            }
+    return names;
+}
+
 Result<Study> study_encoders(const Image& environment, const std::vector<std::string>& bases,
                              const EncoderStudyOptions& options, const Progress& progress) {
     Study study;
