@@ -163,6 +163,7 @@ test("shares are in per cent", () => {
     assert.equal(share_text(0), "0");
     assert.equal(share_text(0.0005), "< 0.1");
     assert.equal(share_text(0.1234), "12.3");
+    assert.equal(share_text(51.317), "5\u202f132");
     assert.equal(percent_text(0.1234), "12.3 %");
     assert.equal(percent_text(NaN), "–");
 });
@@ -234,6 +235,9 @@ test("representatives: the front by size, and the sharpest, in order of size", (
     assert.deepEqual(ranking.representatives_of(methods, 7).map(({ basis }) => basis), ["small", "middle", "large", "sharp"]);
     assert.ok(ranking.representatives_of(methods, 2).length <= 2);
     assert.deepEqual(ranking.representatives_of([], 5), []);
+    assert.deepEqual(ranking.irradiance_front(methods).map(({ basis }) => basis), ["small", "middle", "large"]);
+    assert.deepEqual(ranking.spread_over([1, 2, 3, 4, 5], 3), [1, 3, 5]);
+    assert.deepEqual(ranking.spread_over([1], 3), [1]);
     assert.deepEqual(ranking.representative_methods(methods, ["sphere"]), methods);
 });
 

@@ -47,7 +47,7 @@ function setting_facts(settings) {
         const is_size = `${stem}_width` in settings && `${stem}_height` in settings;
         const text = is_size ? `${settings[`${stem}_width`]} × ${settings[`${stem}_height`]}` : setting_text(value);
         if (value !== null && key !== "recipe" && !(is_size && key.endsWith("_height")))
-            facts.push([(is_size ? `${stem} at` : key).replaceAll("_", " "), text]);
+            facts.push([(is_size ? `${stem.replace("judged", "measured")} at` : key).replaceAll("_", " "), text]);
     }
     return facts;
 }

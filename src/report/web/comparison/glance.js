@@ -5,12 +5,12 @@ import { count_text, percent_text } from "../shared/format.js";
 import { domains, main_axis, mean, methods, report } from "./data.js";
 import { open_detail } from "./detail.js";
 import { frame_of } from "./frames.js";
-import { best_of_bases, relative_error, representatives_of } from "./ranking.js";
+import { irradiance_front, relative_error, spread_over } from "./ranking.js";
 
-/// The methods of the glance: the best of its size, from the smallest to the largest, on the sphere where there is one.
+/// Methods that no smaller one beats, from the smallest to the largest; of the sphere if the report has it.
 function glance_methods() {
     const of_domain = methods.filter((method) => method.domain === domains[0]);
-    return representatives_of(best_of_bases(of_domain), 6);
+    return spread_over(irradiance_front(of_domain), 6);
 }
 
 const sphere_kind = { title: "Lit sphere", quantity: "irradiance", form: "sphere" };

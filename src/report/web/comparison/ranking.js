@@ -49,23 +49,31 @@ export function best_of_bases(methods) {
     return methods.filter((method) => best.get(method.basis) === method);
 }
 
-/// From the methods that no smaller or equal one beats in irradiance, at most `most` spread evenly from the smallest to
-/// the largest; among them the one of the least radiance error. In order of size.
-export function representatives_of(candidates, most) {
-    if (!candidates.length) return [];
+/// The methods that no smaller or equal one beats in irradiance, in order of size.
+export function irradiance_front(candidates) {
     const error = (method) => figure_or_last(method, quantities.irradiance.rms);
     const by_size = [...candidates].sort((a, b) => a.floats - b.floats || error(a) - error(b));
     let least = Infinity;
-    const front = by_size.filter((method) => {
+    return by_size.filter((method) => {
         const better = error(method) < least;
         least = Math.min(least, error(method));
         return better;
     });
+}
+
+/// At most `most` entries of a list, spread evenly from its first to its last.
+export function spread_over(list, most) {
+    const count = Math.min(list.length, most);
+    return Array.from({ length: count }, (_, i) => list[Math.round((i * (list.length - 1)) / (count - 1 || 1))]);
+}
+
+/// Some of the irradiance front, and the method of the least radiance error; at most `most`, in order of size.
+export function representatives_of(candidates, most) {
+    if (!candidates.length) return [];
     const radiance_error = (method) => figure_or_last(method, quantities.radiance.rms);
-    const sharpest = by_size.reduce((best, method) => (radiance_error(method) < radiance_error(best) ? method : best));
-    const count = Math.min(front.length, most - 1);
-    const spread = Array.from({ length: count }, (_, i) => front[Math.round((i * (front.length - 1)) / (count - 1 || 1))]);
-    return [...new Set([...spread, sharpest])].sort((a, b) => a.floats - b.floats);
+    const sharpest = candidates.reduce((best, method) => (radiance_error(method) < radiance_error(best) ? method : best));
+    const front = spread_over(irradiance_front(candidates), most - 1);
+    return [...new Set([...front, sharpest])].sort((a, b) => a.floats - b.floats);
 }
 
 /// The methods of the first pictures: all if they are few, else representatives of each domain.

@@ -13,9 +13,13 @@ export function figure_text(value) {
     return value.toPrecision(3).replace(/^-/, "−");
 }
 
-/// A share as percent, without the sign.
-export const share_text = (value) =>
-    !Number.isFinite(value) ? "–" : value === 0 ? "0" : value < 0.001 ? "< 0.1" : (value * 100).toFixed(1);
+/// A share in per cent, without the sign.
+export function share_text(value) {
+    if (!Number.isFinite(value)) return "–";
+    if (value === 0) return "0";
+    if (value < 0.001) return "< 0.1";
+    return value < 10 ? (value * 100).toFixed(1) : count_text(Math.round(value * 100));
+}
 
 export const signed_text = (value, digits) => (value < 0 ? "−" : "+") + Math.abs(value).toFixed(digits);
 

@@ -1,4 +1,4 @@
-// What pages with pictures share: the facts and warnings of the header, and the toolbar's exposure, tone curve and mark.
+// The header's facts and warnings, and the toolbar: exposure, tone curve, mark of negative values.
 
 import { gain, view } from "./colour.js";
 import { by_id, element } from "./elements.js";
@@ -36,6 +36,6 @@ export function connect_toolbar() {
         repaint();
     });
     new ResizeObserver(([{ target }]) =>
-        document.documentElement.style.setProperty("--toolbar-height", `${target.offsetHeight}px`),
+        document.documentElement.style.setProperty("--toolbar-height", getComputedStyle(target).position === "sticky" ? `${target.offsetHeight}px` : "0px"),
     ).observe(by_id("toolbar"));
 }
