@@ -1,7 +1,6 @@
 // A comparison as report.json.
 #include "measure/comparison_json.h"
 
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 namespace lobelia {
