@@ -1,4 +1,4 @@
-// Where lobelia eval and lobelia reference evaluate, and the file that they write.
+// Directions and output file of lobelia eval and lobelia reference.
 #pragma once
 
 #include <string>

@@ -36,17 +36,17 @@ json unity_json(std::span<const Rgb> nine) {
             {"SHC", constants.C}};
 }
 
-/// Reads numbers out of JSON and remembers what was wrong first.
+/// Reads numbers from JSON and keeps the first error.
 class Reader {
   public:
     Reader(const ShConvention& convention, std::string name) : convention_(convention), name_(std::move(name)) {}
 
     [[nodiscard]] Result<std::vector<Rgb>> read(const json& file) {
         if (!file.is_object()) return Error{name_ + ": not a JSON object"};
-        if (const json& said = member(file, "convention");
-            said.is_string() && said.get<std::string>() != convention_.name)
-            return Error{name_ + ": says that it is of convention " + said.dump() + ", not \"" +
-                         std::string(convention_.name) + "\""};
+        if (const json& named = member(file, "convention");
+            named.is_string() && named.get<std::string>() != convention_.name)
+            return Error{name_ + ": is of convention " + named.dump() + ", not \"" + std::string(convention_.name) +
+                         "\""};
         std::vector<Rgb> c;
         switch (convention_.form) {
             case Form::rows:

@@ -19,22 +19,22 @@ using BasisPtr = std::shared_ptr<const Basis>;
 constexpr const char* k_head =
     R"(# Bases
 
-Written by `lobelia list --markdown` from what the bases say of themselves; a test keeps it current. Conventions of axes,
+Written by `lobelia list --markdown` from the descriptions in the code; a test keeps it current. Conventions of axes,
 harmonics and lobes are in [conventions.md](conventions.md), encoders in [encoders.md](encoders.md), evaluators of lobes
-in [evaluators.md](evaluators.md), readings of gloss in [specular.md](specular.md); [adding-a-basis.md](adding-a-basis.md)
-tells how to add one. How good each is on an environment of yours, `lobelia compare` measures.
+in [evaluators.md](evaluators.md), specular evaluators in [specular.md](specular.md); [adding-a-basis.md](adding-a-basis.md)
+explains how to add one. `lobelia compare` measures them on an environment of yours.
 
 A **linear** basis is a sum of functions. A **fitted** one is found from the coefficients of a linear basis that is
-accumulated for it, and read in a way of its own. A coefficient is three floats: a colour, or where it says so a vector.
+accumulated for it, and evaluated in its own way. A coefficient is three floats: a colour, or a vector where the table says so.
 Bytes are those of float32.
 
 The pictures are of ennis.hdr (`docs/make-pictures`), each basis with the encoder `least-squares`, or `moments` where it
-is not listed with that; bases over the hemisphere see the half above z = 0 only.
+is not listed with that; bases over the hemisphere see directions above z = 0 only.
 
 )";
 
 constexpr const char* k_patterns_head = R"(
-Further members of these families are known by name:
+Other members of these families, by name:
 
 )";
 
@@ -89,11 +89,12 @@ std::string vectors_among(const Basis& basis) {
     const auto meanings = basis.meanings();
     const auto shapes = std::count(meanings.begin(), meanings.end(), Meaning::shape);
     if (shapes == 0) return "";
-    return " Of its coefficients " + std::to_string(shapes) + (shapes == 1 ? " is a direction" : " are directions") +
-           " or the like, not light.";
+    return " " + std::to_string(shapes) +
+           (shapes == 1 ? " coefficient is a direction" : " coefficients are directions") +
+           " or another shape parameter, not light.";
 }
 
-/// What values its coefficients may have, as far as its traits tell, and what keeps them.
+/// Ranges of the coefficients, as far as the traits state them, and the storages that hold them.
 std::string ranges(const BasisPtr& basis) {
     const CoefficientTraits traits = coefficient_traits(basis);
     std::ostringstream text;
@@ -126,7 +127,7 @@ std::string evaluators(const std::vector<BasisPtr>& family) {
             const auto evaluator = basis->evaluator(name);
             const Accuracy accuracy = evaluator->accuracy();
             text += "| `" + name + "` | " + accuracy.range + " | " + accuracy.error + " | " +
-                    (evaluator->negative() == Negative::clamped ? "read as 0" : "kept") + " |\n";
+                    (evaluator->negative() == Negative::clamped ? "replaced by 0" : "kept") + " |\n";
         }
     return text;
 }
@@ -148,12 +149,12 @@ std::string pictures(const std::vector<BasisPtr>& family) {
     return head + "\n" + rule + "\n" + radiance + "\n" + irradiance + "\n\n";
 }
 
-/// The family's own readings of glossy reflection; nothing where it has none.
-std::string gloss(const std::vector<BasisPtr>& family) {
+/// The family's own specular evaluators; empty if it has none.
+std::string specular(const std::vector<BasisPtr>& family) {
     const Basis& first = *family.front();
     const auto names = first.specular_names();
     if (names.empty()) return "";
-    std::string text = "\n| gloss | range | error |\n|---|---|---|\n";
+    std::string text = "\n| specular | range | error |\n|---|---|---|\n";
     for (const auto& name : names) {
         const Accuracy accuracy = first.specular(name)->accuracy();
         text += "| `" + name + "` | " + accuracy.range + " | " + accuracy.error + " |\n";
@@ -170,11 +171,12 @@ std::string section(const std::vector<BasisPtr>& family) {
     text += wrapped("**Bad at** " + notes.bad_at + ".") + "\n";
     text += wrapped(ranges(family.back())) + "\n";
     const auto listed = first.listed_encoders();
-    text += wrapped("Listed with " +
-                    (listed.empty() ? std::string("every encoder that suits it") : "the encoders " + joined(listed)) +
-                    "." + vectors_among(first)) +
-            "\n";
-    return text + evaluators(family) + gloss(family);
+    text +=
+        wrapped("Listed with " +
+                (listed.empty() ? std::string("every encoder that works with it") : "the encoders " + joined(listed)) +
+                "." + vectors_among(first)) +
+        "\n";
+    return text + evaluators(family) + specular(family);
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ double milliseconds_since(Clock::time_point start) {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-/// What one domain is sampled by and measured against.
+/// Samples and references of one domain.
 struct Stage {
     Samples samples;   ///< in the order in which encoders see them
     Samples measured;  ///< directions, reference radiance and weights of the measuring grid

@@ -30,9 +30,9 @@ json to_json(const StorageErrors& s) {
             {"cut", s.cut}};
 }
 
-json to_json(const Method& m, DirectionView judged) {
+json to_json(const Method& m, DirectionView measured) {
     const std::size_t floats = 3 * m.c.size();
-    const Vec3 worst = world_from_domain(m.domain, direction_at(judged, m.irradiance_over_pi.worst_index));
+    const Vec3 worst = world_from_domain(m.domain, direction_at(measured, m.irradiance_over_pi.worst_index));
     json method = {
         {"name", m.name.str()},
         {"basis", m.name.basis},
@@ -75,12 +75,12 @@ json to_json(const Convergence& c) {
 
 json to_json(const Comparison& comparison, const EnvironmentInfo& environment) {
     json methods = json::array();
-    std::map<Domain, Samples> judged;
+    std::map<Domain, Samples> measured;
     const LatLong grid = comparison.recipe.empty() ? k_measuring_grid : comparison.grid;
     for (const Method& method : comparison.methods) {
-        if (!judged.contains(method.domain))
-            judged[method.domain] = texel_samples(Image(grid.width, grid.height), method.domain);
-        methods.push_back(to_json(method, judged[method.domain].view().directions()));
+        if (!measured.contains(method.domain))
+            measured[method.domain] = texel_samples(Image(grid.width, grid.height), method.domain);
+        methods.push_back(to_json(method, measured[method.domain].view().directions()));
     }
     json report = {{"lobelia", k_version},
                    {"format", k_report_format},

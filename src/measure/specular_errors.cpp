@@ -1,4 +1,4 @@
-// The reflection of all texels at all points is summed once; then every coefficient vector is read there.
+// Sums the reflection of all texels at all points once, then evaluates every coefficient vector there.
 #include "measure/specular_errors.h"
 
 #include <tbb/parallel_for.h>
@@ -15,7 +15,7 @@
 namespace lobelia {
 namespace {
 
-/// Points of surfaces that face their viewer, and what they reflect.
+/// Surface points that face their viewer, and their reference reflection.
 struct SpecularSurfaces {
     Directions normals;
     std::vector<float> alphas;
@@ -50,11 +50,11 @@ SpecularSurfaces points_for(SampleView texels, const SpecularErrorOptions& optio
     return result;
 }
 
-struct Reading {
+struct Evaluated {
     double error = 0, nanoseconds = 0;
 };
 
-Reading read(const SpecularEvaluator& evaluator, std::span<const Rgb> c, const SpecularSurfaces& at) {
+Evaluated evaluate(const SpecularEvaluator& evaluator, std::span<const Rgb> c, const SpecularSurfaces& at) {
     Colours out(at.alphas.size());
     const auto start = std::chrono::steady_clock::now();
     evaluator.reflected(c, at.points(), out);
@@ -67,7 +67,7 @@ Reading read(const SpecularEvaluator& evaluator, std::span<const Rgb> c, const S
     return {std::sqrt(squares / (3 * count)) / at.mean, time.count() / count};
 }
 
-/// All readings of one basis.
+/// All specular evaluators of one basis.
 class BasisReflection {
   public:
     BasisReflection(std::shared_ptr<const Basis> basis, SampleView texels, const SpecularSurfaces& points)
@@ -80,14 +80,14 @@ class BasisReflection {
         }
     }
 
-    void add_readings(std::span<const Storage* const> storages, std::vector<SpecularError>& errors) const {
+    void add_errors(std::span<const Storage* const> storages, std::vector<SpecularError>& errors) const {
         for (const auto& name : specular_names(*basis_)) {
             const auto evaluator = make_specular(name, basis_).value();
-            // The encoder that reads best; the others take as many bytes.
+            // Choose the encoder of the least error: all take as many bytes.
             const Encoding* best = nullptr;
             double least = HUGE_VAL;
             for (const Encoding& e : encodings_)
-                if (const double error = read(*evaluator, e.c, points_).error; error < least) {
+                if (const double error = evaluate(*evaluator, e.c, points_).error; error < least) {
                     best = &e;
                     least = error;
                 }
@@ -95,7 +95,7 @@ class BasisReflection {
             const auto traits = coefficient_traits(*best->encoder);
             for (const Storage* storage : storages) {
                 if (!suits(*storage, traits)) continue;
-                const auto [error, time] = read(*evaluator, stored_and_read(*storage, traits, best->c), points_);
+                const auto [error, time] = evaluate(*evaluator, stored_and_read(*storage, traits, best->c), points_);
                 errors.push_back({basis_->name(), best->name, std::string(storage->name), name,
                                   bytes_per_texel(storage->layout(traits)), error, time});
             }
@@ -123,7 +123,7 @@ std::vector<SpecularError> specular_errors(const Image& environment, const Specu
         if (auto basis = make_basis(name).value(); basis->domain() == Domain::sphere) bases.push_back(std::move(basis));
     std::vector<std::vector<SpecularError>> of_basis(bases.size());
     tbb::parallel_for(std::size_t{0}, bases.size(), [&](std::size_t i) {
-        BasisReflection(bases[i], texels, points).add_readings(options.storages, of_basis[i]);
+        BasisReflection(bases[i], texels, points).add_errors(options.storages, of_basis[i]);
     });
     std::vector<SpecularError> all;
     for (auto& errors : of_basis) all.insert(all.end(), errors.begin(), errors.end());

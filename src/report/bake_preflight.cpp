@@ -1,4 +1,4 @@
-// What preflight found, for the page of a bake.
+// Results of preflight, for the report of a bake.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -34,12 +34,12 @@ void add_preflight(BakeReport& page, const Preflight& preflight, const Scene& sc
     using Level = PreflightCheck::Level;
     const auto sentences = warnings(preflight, scene);
     for (const std::string& sentence : sentences) page.checks.push_back(check_of(sentence));
-    if (sentences.empty()) page.checks.push_back({Level::good, "Lightmap UVs", "nothing to mend"});
+    if (sentences.empty()) page.checks.push_back({Level::good, "Lightmap UVs", "no problems"});
 
     const double texels = static_cast<double>(preflight.width * preflight.height * preflight.pages);
     page.checks.push_back(
         {Level::note, "Charts",
-         fmt::format("{} on {} page{}, which they cover to {:.1f} %", preflight.charts, preflight.pages,
+         fmt::format("{} on {} page{}, covering {:.1f} % of the texels", preflight.charts, preflight.pages,
                      preflight.pages == 1 ? "" : "s", 100 * static_cast<double>(preflight.texels) / texels)});
     const BakeMemory& memory = preflight.memory;
     page.checks.push_back(
@@ -56,9 +56,8 @@ void add_preflight(BakeReport& page, const Preflight& preflight, const Scene& sc
 
     constexpr std::size_t k_most_side = 768;
     for (std::size_t p = 0; p < preflight.pages; ++p)
-        page.preflight_pictures.push_back(
-            {fmt::format("Page {}: charts, orange where too close, red where they overlap", p),
-             as_linear_values(preflight_picture(preflight, atlas, map, p, k_most_side))});
+        page.preflight_pictures.push_back({fmt::format("Page {}: charts; orange: too close; red: overlapping", p),
+                                           as_linear_values(preflight_picture(preflight, atlas, map, p, k_most_side))});
 }
 
 }  // namespace lobelia

@@ -1,4 +1,4 @@
-// What all pages share: embedded files, templates with marks to fill, and JSON inside script elements.
+// What all reports share: embedded files, templates with marks to fill, and JSON inside script elements.
 #pragma once
 
 #include <cstddef>
@@ -15,8 +15,8 @@ namespace lobelia {
 /// JSON text that cannot end the script element it stands in. Bytes that are not UTF-8 are replaced.
 [[nodiscard]] std::string script_safe(const nlohmann::json& value);
 
-/// The embedded `page` with each {{mark}} replaced: by the embedded file of that name, or else by what `write_data`
-/// appends for it. What stands in place of a mark is not searched for further marks.
+/// The embedded `page` with each {{mark}} replaced: by the embedded file of that name (a module with all its
+/// imports, see modules.h), or else by what `write_data` appends. The replacement is not searched for further marks.
 /// Precondition: `write_data` knows every other mark, and returns whether it does.
 /// `data_bytes`: about how much it appends in all, so that a page of many megabytes is not copied while it grows.
 [[nodiscard]] std::string fill_template(

@@ -8,7 +8,7 @@ export const stored_pictures = JSON.parse(document.getElementById("picture-data"
 /// The picture stored under a name, decoded once; null where there is none.
 export const picture_of = (name) => made_once(`stored ${name}`, () => decode(stored_pictures[name]));
 
-/// What the page shows now. `object`: the number of the one that is picked out, or null.
+/// The state of the display. `object`: the number of the picked object, or null.
 export const shown = {
     camera: 0,
     form: "wipe", // of the stage

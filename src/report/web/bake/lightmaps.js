@@ -13,7 +13,7 @@ import { paint_picture, pixel_writers, scale_bar, signed_gradient } from "./writ
 
 let viewer = null;
 
-/// How a layer is painted: its kind's writer with its factor.
+/// The pixel writer of a layer, by its kind and factor.
 function layer_writer(layer) {
     if (layer.kind === "light" || layer.kind === "signed") return pixel_writers[layer.kind](layer.factor ?? 1);
     return pixel_writers[layer.kind](layer.scale ?? 1);
@@ -29,7 +29,7 @@ function layer_picture(layer, page) {
     return a && b ? made_once(`${layer.name} ${page}`, () => signed_picture(a, b)) : null;
 }
 
-/// What can be seen of texel i: nothing where there is nothing, less where another object is picked out.
+/// The opacity of each texel: 0 outside of charts, low for texels of other objects if one is picked. Null: all opaque.
 function texel_alpha(layer, page) {
     const charts = chart_layer() && picture_of(`${chart_layer().name} ${page}`);
     const picture = layer_picture(layer, page);
@@ -207,8 +207,8 @@ function layer_range(layer) {
     return { mean: count ? sum / count : 0, below: sum > 0 ? below / sum : 0 };
 }
 
-/// Coefficients that are light are shown with one gain, those that may be negative with another, so that each kind can
-/// be told apart among itself: the largest mean magnitude is a quarter of white, or half of the way from grey to it.
+/// Sets one gain for coefficients that are light and one for those that may be negative, so that each kind can be
+/// compared: the largest mean magnitude is a quarter of white, or half of the way from grey to it.
 function scale_coefficients() {
     const ranges = bake.layers.filter(({ kind }) => kind === "coefficient").map((layer) => ({ layer, ...layer_range(layer) }));
     // A little below 0 is an error of the fit, where no coefficient is far below; else it is what they mean.

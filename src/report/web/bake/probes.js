@@ -1,4 +1,4 @@
-// The probes: at each height a plan of small spheres, lit by what the probes hold.
+// The probes: for each height a plan of small spheres, lit by the coefficients of the probes.
 
 import { by_id, element } from "../shared/elements.js";
 import { count_text, figure_text } from "../shared/format.js";
@@ -9,7 +9,7 @@ import { paint_picture, pixel_writers } from "./writers.js";
 const k_probe_marks = { nothing: 0, valid: 1, invalid: 2 };
 const k_invalid_colour = [191, 0, 0];
 
-/// Light, but flat red where a probe is of no use.
+/// Light, or flat red for an invalid probe.
 function probe_writer(marks) {
     const light = pixel_writers.light(1);
     return (data, i, out, at) => {
@@ -35,6 +35,6 @@ export function build_probes() {
     const some = probes.plans.length < probes.heights ? ` Of ${count_text(probes.heights)} heights, ${probes.plans.length} are shown.` : "";
     by_id("probes-note").textContent =
         `${count_text(probes.count)} in ${probes.codec}, seen from above, x to the right, z down the page: E/π at the normals of a sphere. ` +
-        `${probes.invalid === 0 ? "All are of use." : `${count_text(probes.invalid)} see mostly backs and are of no use: red.`}${some}`;
+        `${probes.invalid === 0 ? "All are valid." : `${count_text(probes.invalid)} see mostly back faces and are invalid (red).`}${some}`;
     by_id("probe-plans").append(...probes.plans.filter(({ name }) => stored_pictures[name]).map(probe_plan));
 }

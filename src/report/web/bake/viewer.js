@@ -2,8 +2,8 @@
 
 const k_most_zoom = 64;
 
-/// Connects `frame`, whose canvas has one pixel for each texel. `hover(event, x, y)` is told the texel under the
-/// pointer, `leave()` that it has gone.
+/// Connects `frame`, whose canvas has one pixel for each texel. `hover(event, x, y)` receives the texel under the
+/// pointer; `leave()` is called when the pointer leaves.
 export function make_viewer(frame, { hover, leave }) {
     const canvas = frame.querySelector("canvas");
     const state = { zoom: 1, x: 0, y: 0 }; // CSS pixels for each texel beyond what fits; the canvas's corner

@@ -62,7 +62,7 @@ export const pixel_writers = {
     },
     signed_error: (factor) => (data, i, out, at) => write_signed_error(data[i], factor, out, at),
     error: (factor) => (data, i, out, at) => write_error(data[i], factor, out, at),
-    // What is not whole goes from white over yellow to red.
+    // From white at 1 over yellow to red at 0.
     share: () => (data, i, out, at) => {
         const x = data[i];
         out[at] = 225 * Math.min(1, 0.85 + 0.15 * x);

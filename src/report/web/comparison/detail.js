@@ -137,7 +137,7 @@ function detail_figures(method) {
     return element("div.detail-figures", errors, facts);
 }
 
-/// What is left of the method in each storage that was asked for; null where none was.
+/// Errors of the method in each measured storage; null if there are none.
 function detail_storage(method) {
     if (!method.storage?.length) return null;
     const five_digits = (value) => (Number.isFinite(value) ? value.toPrecision(5) : "–");

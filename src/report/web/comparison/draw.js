@@ -16,8 +16,8 @@ function texel_writer(picture, quantity) {
     return (data, i, out, at) => write_colour(data[i], data[i + 1], data[i + 2], scale, curve, out, at);
 }
 
-/// One pixel for each texel; the browser does the scaling. Errors are shown only where `judged(v)`.
-export function paint_lat_long(canvas, picture, quantity, judged) {
+/// One pixel for each texel; the browser does the scaling. Errors are shown only where `measured(v)`.
+export function paint_lat_long(canvas, picture, quantity, measured) {
     canvas.width = picture.width;
     canvas.height = picture.height;
     const context = canvas.getContext("2d");
@@ -25,15 +25,15 @@ export function paint_lat_long(canvas, picture, quantity, judged) {
     const write = texel_writer(picture, quantity);
     for (let i = 0; i < picture.width * picture.height; ++i) {
         write(picture.data, i * picture.channels, image.data, i * 4);
-        image.data[i * 4 + 3] = picture.channels > 1 || judged((Math.trunc(i / picture.width) + 0.5) / picture.height) ? 255 : 0;
+        image.data[i * 4 + 3] = picture.channels > 1 || measured((Math.trunc(i / picture.width) + 0.5) / picture.height) ? 255 : 0;
     }
     context.putImageData(image, 0, 0);
 }
 
 /// A hemisphere sees what is above the horizon: the upper half of a latitude-longitude picture.
-export const judged_positions = (domain) => (domain === "hemisphere" ? (v) => v < 0.5 : () => true);
+export const measured_positions = (domain) => (domain === "hemisphere" ? (v) => v < 0.5 : () => true);
 
-/// How far spheres of a domain are turned at 0 degrees, as a share of a full turn: the brightest side of the reference
+/// The turn of spheres of a domain at 0 degrees, as a share of a full turn: the brightest side of the reference
 /// comes half left, so that the shading shows.
 function automatic_turn(domain) {
     const picture = reference_picture(domain, "irradiance");
@@ -45,7 +45,7 @@ function automatic_turn(domain) {
     return (brightest + 0.5) / picture.width - 1 / 8;
 }
 
-/// A white diffuse sphere lit by E/pi in `picture`, or the error over it; what is not judged is hatched.
+/// A white diffuse sphere lit by E/pi in `picture`, or the error over it; what is not measured is hatched.
 export function paint_sphere(canvas, picture, quantity, domain) {
     const size = Math.max(16, Math.min(400, Math.round(canvas.clientWidth * devicePixelRatio)));
     canvas.width = canvas.height = size;
@@ -56,11 +56,11 @@ export function paint_sphere(canvas, picture, quantity, domain) {
     const write = texel_writer(picture, quantity);
     const value = [0, 0, 0];
     const turn = view.turn / 360 + made_once(`turn ${domain}`, () => automatic_turn(domain));
-    const judged = judged_positions(domain);
+    const measured = measured_positions(domain);
     for (let i = 0; i < size * size; ++i) {
         if (cover[i] === 0) continue;
         const turned = u[i] + turn - Math.floor(u[i] + turn);
-        if (judged(v[i])) {
+        if (measured(v[i])) {
             sample_picture(picture, turned, v[i], value);
             write(value, 0, out, i * 4);
             out[i * 4 + 3] = cover[i] * 255;

@@ -6,7 +6,7 @@ import { figure_text, signed_text, vector_text } from "../shared/format.js";
 import { painted, repaint } from "../shared/paint.js";
 import { hide_tip, show_tip } from "../shared/tip.js";
 import { domains, error_picture, method_picture, reference_picture } from "./data.js";
-import { judged_positions, paint_lat_long, paint_sphere } from "./draw.js";
+import { measured_positions, paint_lat_long, paint_sphere } from "./draw.js";
 import { direction_of, position_of } from "./latlong.js";
 
 /// A latitude-longitude picture. `get` gives it when it is first painted.
@@ -16,7 +16,7 @@ function lat_long_frame(get, { domain, quantity, label, mark = null }) {
     painted(canvas, () => {
         const picture = get();
         frame.classList.toggle("missing", !picture);
-        if (picture) paint_lat_long(canvas, picture, quantity, judged_positions(domain));
+        if (picture) paint_lat_long(canvas, picture, quantity, measured_positions(domain));
     });
     if (mark) {
         const [u, v] = position_of(mark);

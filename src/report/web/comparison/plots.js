@@ -17,7 +17,7 @@ const plots = {
     sequence: null,
 };
 
-/// What the colours of the size plot may tell apart.
+/// Groups that the colours of the size plot may show.
 const plot_groups = {
     family: ({ method }) => family_of(method),
     encoder: ({ method }) => method.encoder,
@@ -59,10 +59,10 @@ const as_options = (values) => values.map((value) => [value, value]);
 
 // ---- Error against bytes
 
-/// The names of all storages that methods were judged in.
+/// The names of all measured storages.
 const storage_names = [...new Set(methods.flatMap((method) => (method.storage ?? []).map(({ name }) => name)))];
 
-/// What the size plot shows of a method: itself in floats, or what the chosen storages give back of it.
+/// The points of a method in the size plot: in floats, or in the chosen storages.
 function stored_figures(method) {
     if (!plots.storage) return [{ bytes: method.bytes, error: method[plots.error], storage: "floats" }];
     return (method.storage ?? [])
@@ -70,7 +70,7 @@ function stored_figures(method) {
         .map((stored) => ({ bytes: stored.bytes, error: stored[plots.error], storage: stored.name }));
 }
 
-/// The errors that were judged of what is shown.
+/// The error measures that are available for the chosen storage.
 const shown_errors = () =>
     plots.storage ? plot_errors.filter(([key]) => methods.some(({ storage }) => key in (storage?.[0] ?? {}))) : plot_errors;
 
@@ -175,7 +175,7 @@ function build_size_plot() {
         controls.push(plot_select("Stored as", "storage", [["", "floats"], ["*", "all"], ...as_options(storage_names)]));
     const { card, canvas } = plot_card(
         "Error against size",
-        "Every method; the line joins those that nothing beats in both. A click opens the details.",
+        "Every method; the line joins those that no other beats in both. Click a point for its details.",
         controls,
     );
     const group_of = plot_groups[plots.colour];
@@ -220,7 +220,7 @@ function build_convergence_plot() {
     const controls = ["basis", "sequence"].map((key) => plot_select(capitalised(key), key, as_options(distinct(key))));
     const { card, canvas } = plot_card(
         "Convergence",
-        "Distance from the coefficients that the encoder strives for, relative to them, in the norm of radiance.",
+        "Distance from the limit of the encoder, relative to it, in the norm of radiance.",
         controls,
     );
     const encoders = distinct("encoder");

@@ -20,7 +20,7 @@ export function mean_value(report) {
     return mean.length === 3 ? (mean[0] + mean[1] + mean[2]) / 3 : NaN;
 }
 
-/// A method's RMS error of a quantity as a share of the mean; NaN where there is no mean.
+/// A method's RMS error of a quantity as a share of the mean; NaN if the mean is not known.
 export const relative_error = (method, quantity, mean) => (mean > 0 ? method[quantities[quantity].rms] / mean : NaN);
 
 /// A function that gives the family of a method. Bases whose names differ in numbers only (their size) are one family; a
@@ -88,7 +88,7 @@ export function representative_methods(methods, domains) {
     );
 }
 
-/// Whether a name passes a text filter: every word of the text is part of it.
+/// True if every word of the text is part of the name.
 export const name_matches = (name, text) =>
     text
         .toLowerCase()

@@ -1,4 +1,4 @@
-// How charts look: series, axes, cards; for the plots of all pages.
+// The look of charts: series, axes, cards; for the plots of all reports.
 
 import { element } from "./elements.js";
 import { count_text } from "./format.js";

@@ -1,6 +1,6 @@
 // From linear light to pixels: exposure, tone curve, sRGB; and the colour scale of errors.
 
-/// How all pictures are shown. `exposure` is in EV above the automatic one, `turn` in degrees from it.
+/// Display settings of all pictures. `exposure` is in EV above the automatic one, `turn` in degrees from it.
 export const view = {
     exposure: 0,
     tone: "clamp",

@@ -1,4 +1,4 @@
-// How far two pictures are apart.
+// Differences of two pictures.
 
 /// |a - b| / (|a| + |b|), the mean of the three channels, 0 where both are 0.
 export function smape_picture(a, b) {
@@ -10,7 +10,7 @@ export function smape_picture(a, b) {
     return { width: a.width, height: a.height, channels: 1, data };
 }
 
-/// Whether the bake's luminance is above (1) or below (-1) the reference's, as a share of their sum.
+/// (a - b) / (|a| + |b|): positive if the first is brighter; 0 if both are 0.
 export function signed_difference(a, b) {
     const sum = Math.abs(a) + Math.abs(b);
     return sum > 0 ? (a - b) / sum : 0;

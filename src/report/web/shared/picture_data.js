@@ -1,4 +1,4 @@
-// Pictures as numbers: decoded from half floats, at other sizes, and how far two are apart.
+// Pictures as numbers: decoded from half floats, and resized.
 
 // A picture is { width, height, channels, data }, row by row.
 
@@ -23,7 +23,7 @@ export function decode(stored) {
     return { width: stored.width, height: stored.height, channels: stored.channels ?? 3, data };
 }
 
-/// What was made under a key, or else what `make` makes now.
+/// Returns the value of a key; calls `make` for it the first time only.
 const made = new Map();
 export function made_once(key, make) {
     if (!made.has(key)) made.set(key, make());

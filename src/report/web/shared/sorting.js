@@ -1,6 +1,6 @@
 // Rows in order.
 
-/// What is missing comes last in both orders.
+/// Compares for sorting; missing values come last in both orders.
 export function compare_values(a, b, sign) {
     if (typeof a === "string") return sign * a.localeCompare(b, "en", { numeric: true });
     const missing_a = !Number.isFinite(a);

@@ -71,7 +71,7 @@ function x_axis(plot, values) {
 
 const y_axis = (plot, values) => (plot.y_axis === "linear" ? linear_axis : log_axis)(plot.y_label, { values });
 
-/// Where all curves have the same places, a tooltip shows all of them there; else only the nearest point.
+/// If all curves have the same x values, a tooltip shows all of them there; else the nearest point only.
 function tooltips_of(plot, options) {
     const places = JSON.stringify(plot.series[0].x);
     const alike = plot.series.every(({ x }) => JSON.stringify(x) === places);
@@ -104,7 +104,7 @@ const place_line = {
 
 // ---- Legends
 
-/// What the curve looks like in the plot.
+/// Draws the line and marker of a curve.
 function curve_swatch(dataset) {
     const [width, height] = [38, 14];
     const canvas = element("canvas", { width: width * 2, height: height * 2, "aria-hidden": "true" });

@@ -1,4 +1,4 @@
-// Puts a study's page together.
+// Puts the report of a study together.
 
 import { by_id, element } from "../shared/elements.js";
 import { capitalised } from "../shared/format.js";
@@ -17,7 +17,7 @@ function build_study_header() {
     by_id("made-by").textContent = study.pictures.length ? `${pictures} ${made_by}` : made_by;
 }
 
-/// Shows what the study has, and links to it where there is more than one kind.
+/// Shows the sections that the study has, and links to them if there are several.
 function build_contents() {
     const present = ["tables", "pictures", "plots"].filter((kind) => study[kind].length);
     for (const kind of present) by_id(`${kind}-section`).hidden = false;

@@ -21,7 +21,7 @@ export function columns_of_table({ title, columns, rows }) {
     });
 }
 
-/// Whether every cell of the column starts with a number, or is empty or a dash.
+/// True if every cell of the column starts with a number, or is empty or a dash.
 export const is_numeric = (column, rows) =>
     rows.every((row) => /^(|[-–]|[-+]?(\d|\.\d|inf|nan).*)$/i.test(column.text_of(row)));
 
@@ -33,7 +33,7 @@ export function least_rows(column, rows) {
     return winners.length <= Math.max(1, rows.length / 4) ? winners : [];
 }
 
-/// Of errors the least is the best; of other figures the page does not know.
+/// True for tables of errors, where the least figure is the best.
 export const holds_errors = ({ title, rows }) => rows.length > 2 && /\b(error|excess)/i.test(title);
 
 export function table_head(columns) {
@@ -79,9 +79,9 @@ export function table_row(row, columns, winners) {
 export function study_table(table) {
     const columns = columns_of_table(table);
     for (const column of columns) column.numeric = is_numeric(column, table.rows);
-    const judged = holds_errors(table);
+    const marks_least = holds_errors(table);
     const winners = columns.map((column, k) =>
-        judged && k > 0 && column.numeric ? least_rows(column, table.rows) : [],
+        marks_least && k > 0 && column.numeric ? least_rows(column, table.rows) : [],
     );
     const note = [table.note, winners.some((rows) => rows.length) && "The least of each column is in blue."];
     return element(
