@@ -7,7 +7,6 @@
 #include <charconv>
 #include <chrono>
 
-#include "lobelia/environment.h"
 
 namespace lobelia::cli {
 

@@ -8,7 +8,7 @@
 
 #include "io/read_file.h"
 #include "io/write_file.h"
-#include "lobelia/planes.h"
+#include "lobelia/environment.h"
 #include "measure/progress.h"
 
 namespace lobelia::cli {

@@ -47,6 +47,7 @@ const browser = await chromium.launch({ executablePath, args: ["--no-sandbox"] }
 async function open(name, options = {}) {
     const context = await browser.newContext({ viewport: { width: 1400, height: 900 }, ...options });
     const page = await context.newPage();
+    page.setDefaultTimeout(120_000); // machines that do other work, too
     const errors = [];
     page.on("console", (message) => ["error", "warning"].includes(message.type()) && errors.push(message.text()));
     page.on("pageerror", (error) => errors.push(String(error)));

@@ -10,6 +10,7 @@
 
 #include "io/write_image.h"
 #include "page_support.h"
+#include "report/bake_report.h"
 #include "report/base64.h"
 #include "report/comparison_report.h"
 #include "report/study_report.h"
@@ -130,6 +131,38 @@ TEST(ReportPage, NoNameEndsItsScriptElement) {
 TEST(ReportPage, ReplacesBytesThatAreNotUtf8) {
     const std::string html = comparison_html(small_report("caf\xe9.hdr"), {});
     EXPECT_EQ(nlohmann::json::parse(script_element(html, "report-data"))["environment"]["name"], "caf\uFFFD.hdr");
+}
+
+/// The last script of a report, which holds its modules.
+std::string module_script(const std::string& html) {
+    const std::string open = "<script type=\"module\">\n";
+    const std::size_t begin = html.find(open) + open.size();
+    return html.substr(begin, html.find("</script", begin) - begin);
+}
+
+TEST(JoinedModules, HoldEachModuleOnceAfterItsImports) {
+    const std::vector<std::string> scripts = {module_script(comparison_html(small_report("sky.hdr"), {})),
+                                              module_script(page_of(small_study("Lobes"))),
+                                              module_script(bake_html({}))};
+    for (const std::string& script : scripts) {
+        for (const char* statement : {"\nimport ", "\nexport "}) EXPECT_EQ(script.find(statement), std::string::npos);
+        // The elements are used by all modules after them.
+        const std::string declaration = "function element(";
+        const std::size_t at = script.find(declaration);
+        ASSERT_NE(at, std::string::npos);
+        EXPECT_EQ(script.find(declaration, at + 1), std::string::npos);
+    }
+    EXPECT_LT(scripts[0].find("function figure_text("), scripts[0].find("function build_method_table("));
+}
+
+TEST(Licences, ReportsThatHoldChartJsHoldItsLicence) {
+    const std::string comparison = comparison_html(small_report("sky.hdr"), {}), study = page_of(small_study("Lobes"));
+    for (const std::string& html : {comparison, study}) {
+        EXPECT_NE(html.find("Chart.js v3"), std::string::npos);
+        EXPECT_NE(html.find("Permission is hereby granted, free of charge"), std::string::npos);
+        EXPECT_NE(html.find("Chart.js Contributors"), std::string::npos);
+    }
+    EXPECT_EQ(bake_html({}).find("Chart.js"), std::string::npos);
 }
 
 TEST(StudyPage, LoadsNothing) { expect_loads_nothing(page_of(small_study("Lobes"))); }

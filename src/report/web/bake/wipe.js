@@ -218,8 +218,7 @@ function explain_brightness({ bias }) {
         : "This bake holds irradiance alone, which has no specular reflection: highlights are missing";
     by_id("views-explanation").textContent =
         bias < -0.005
-            ? `The bake is ${percent_text(-bias)} darker than the reference. ${reason}; light that a surface reflects towards the ` +
-              "camera specularly, and light from interpolation near edges, differ most (see the error picture)."
+            ? `The bake is ${percent_text(-bias)} darker than the reference. ${reason}; the error picture shows where.`
             : "";
 }
 

@@ -46,14 +46,10 @@ export function build_picture_table() {
         );
         picture_kinds.forEach((kind, i) => {
             const legend = kind.form === "error" && !method;
-            cells.push(
-                cell(
-                    legend ? "picture legend" : "picture",
-                    s + 1,
-                    i + 1,
-                    legend ? error_legend(kind.quantity) : frame_of(kind, domain, method),
-                ),
-            );
+            const content = legend ? error_legend(kind.quantity) : frame_of(kind, domain, method);
+            const made = cell(legend ? "picture legend" : "picture", s + 1, i + 1, content);
+            made.dataset.title = kind.title; // phones show it below the picture
+            cells.push(made);
         });
         cells.push(cell("figures", s + 1, picture_kinds.length + 1, method ? short_figures(method) : null));
     });
