@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "bake/write/manifest.h"
 #include "cli/bake_input.h"
 #include "cli/common.h"
 #include "cli/environment_input.h"
@@ -33,13 +34,14 @@ bool is_scene(const std::string& path) {
 }
 
 Result<LoadedScene> load_scene_for(const AdviseArguments& arguments) {
-    SceneOptions scene;
+    SceneSource scene;
     scene.path = arguments.environment.path;
-    scene.read = arguments.environment.read;
+    scene.ldr = arguments.environment.read.ldr ? Switch::on : Switch::off;
+    scene.sanitize = arguments.environment.read.sanitize ? Switch::on : Switch::off;
     if (!is_bake(scene.path)) return load_scene(scene);
     const auto manifest = read_manifest(scene.path);
     if (!manifest) return manifest.error();
-    return load_scene_of_bake(scene, *manifest);
+    return read_baked_scene(scene.path, *manifest, scene);
 }
 
 Result<Advice> advice_for(const AdviseArguments& arguments) {

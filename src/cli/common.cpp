@@ -1,4 +1,4 @@
-// Grid sizes, output, progress.
+// Grid sizes, messages, progress.
 #include "cli/common.h"
 
 #include <fmt/core.h>
@@ -6,7 +6,6 @@
 
 #include <charconv>
 #include <chrono>
-
 
 namespace lobelia::cli {
 
@@ -22,50 +21,6 @@ Result<LatLong> parse_grid(const std::string& text) {
         grid.height > most || grid.size() > most)
         return error;
     return grid;
-}
-
-Status check_folder(const std::filesystem::path& folder) {
-    // Ask the folder, or the nearest one above it that is there.
-    namespace fs = std::filesystem;
-    std::error_code code;
-    fs::path existing = fs::absolute(folder, code);
-    while (!fs::exists(existing, code) && existing.has_relative_path()) existing = existing.parent_path();
-    if (!fs::is_directory(existing, code))
-        return Error{folder.string() + ": cannot be made a folder: " + existing.string() + " is not one"};
-    if (access(existing.c_str(), W_OK | X_OK) != 0)
-        return Error{folder.string() + ": cannot be written to: " + std::generic_category().message(errno)};
-    return Done{};
-}
-
-Status check_file(const std::filesystem::path& file) {
-    namespace fs = std::filesystem;
-    std::error_code code;
-    const fs::path folder = fs::absolute(file, code).parent_path();
-    if (!fs::is_directory(folder, code))
-        return Error{file.string() + ": cannot be written: there is no folder " + folder.string()};
-    if (access(folder.c_str(), W_OK | X_OK) != 0)
-        return Error{file.string() + ": cannot be written: " + std::generic_category().message(errno)};
-    return Done{};
-}
-
-Status write_into_folder(const std::filesystem::path& folder, std::span<const FileContent> files) {
-    // Find the topmost folder that is made here, to remove it again if the files cannot be written.
-    namespace fs = std::filesystem;
-    std::error_code code;
-    fs::path made;
-    for (fs::path at = fs::absolute(folder, code); !at.empty() && !fs::exists(at, code) && at.has_relative_path();
-         at = at.parent_path())
-        made = at;
-    fs::create_directories(folder, code);
-    auto status = code ? Status(Error{folder.string() + ": cannot be made a folder: " + code.message()})
-                       : write_files_together(files);
-    if (!status && !made.empty()) {
-        // Remove empty folders only, from the innermost out.
-        for (fs::path at = fs::absolute(folder, code); at != made.parent_path() && fs::remove(at, code);
-             at = at.parent_path()) {
-        }
-    }
-    return status;
 }
 
 void complain(const std::string& line) {

@@ -1,11 +1,11 @@
 // What several verbs share: grid sizes, output, progress.
 #pragma once
 
-#include <filesystem>
 #include <functional>
-#include <span>
 #include <string>
+#include <string_view>
 
+#include "io/folders.h"
 #include "io/read_file.h"
 #include "io/write_file.h"
 #include "lobelia/environment.h"
@@ -15,14 +15,6 @@ namespace lobelia::cli {
 
 /// Parses "256x128" as a grid of at least 1 x 1 and at most 2^26 texels.
 [[nodiscard]] Result<LatLong> parse_grid(const std::string& text);
-
-/// Checks that files can be written into the folder, which need not exist yet. Call it before long work.
-[[nodiscard]] Status check_folder(const std::filesystem::path& folder);
-/// Checks that a file of that name can be written: its folder exists and allows it. Call it before long work.
-[[nodiscard]] Status check_file(const std::filesystem::path& file);
-
-/// Makes the folder if it is missing, and writes all files or none; on failure, folders made here are removed again.
-[[nodiscard]] Status write_into_folder(const std::filesystem::path& folder, std::span<const FileContent> files);
 
 /// Prints a line on stderr; if stderr is closed, the line is lost and nothing else changes.
 void complain(const std::string& line);

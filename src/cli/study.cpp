@@ -22,7 +22,7 @@ struct StudyArguments {
     EnvironmentOptions environment;
     std::vector<std::string> bases = default_study_bases();
     EncoderStudyOptions encoders;
-    SceneOptions scene;
+    SceneSource scene;
     BakeStudyOptions bake;
     int bounces = 8;
 };

@@ -21,8 +21,6 @@ struct ObjectFigures {
     TexelBox box;               ///< the smallest box around them
 };
 
-/// The object of each chart.
-[[nodiscard]] std::vector<std::uint32_t> objects_of_charts(const Atlas& atlas);
 /// One entry for each object of the scene; names are those of `scene`. `codec_irradiance` may be empty.
 [[nodiscard]] std::vector<ObjectFigures> object_figures(const Scene& scene, const BakedLight& light,
                                                         std::span<const std::uint32_t> object_of_chart,

@@ -21,21 +21,38 @@ std::vector<std::pair<std::string, std::string>> bake_settings(const BakeOptions
     return facts;
 }
 
-BakeReport bake_report_of(const Scene& scene, const Baker& baker, const Bake& bake) {
-    BakeReport page;
-    page.title = scene.name;
-    page.settings = bake_settings(bake.manifest.options, bake.pages.size());
-    page.statistics = baker.statistics();
-    page.light = {bake.pages, baker.atlas().placements(), bake.layout(), baker.codec(), baker.in_tangent_frame()};
-    const Frame frame = baker.in_tangent_frame() ? Frame::tangent : Frame::world;
-    for (std::size_t p = 0; baker.codec() != nullptr && p < bake.pages.size(); ++p)
-        page.codec_irradiance.push_back(
-            page_irradiance(bake.pages[p], bake.layout(), bake.normals[p], frame, baker.codec()->evaluator()));
-    page.object_of_chart = objects_of_charts(baker.atlas());
-    page.objects = object_figures(scene, page.light, page.object_of_chart, page.codec_irradiance);
+Result<BakeReport> bake_report_of(const Scene& scene, const Bake& bake) {
+    auto light = light_of(bake);
+    if (!light) return light.error();
+    BakeReport report;
+    report.title = scene.name;
+    report.settings = bake_settings(bake.manifest.options, bake.pages.size());
+    report.statistics = bake.manifest.statistics;
+    report.warnings = bake.manifest.warnings;
+    report.light = *std::move(light);
+    for (std::size_t p = 0; report.light.codec && p < bake.pages.size(); ++p)
+        report.codec_irradiance.push_back(page_irradiance(bake.pages[p], bake.channels(), bake.normals[p],
+                                                          report.light.frame, report.light.codec->evaluator()));
+    if (bake.preflight) report.object_of_chart = bake.preflight->object_of_chart;
+    report.objects = object_figures(scene, report.light, report.object_of_chart, report.codec_irradiance);
     if (bake.probes)
-        if (const auto codec = make_codec(bake.probes->codec)) page.probes = view_probes(*bake.probes, *codec);
-    return page;
+        if (const auto codec = make_codec(bake.probes->codec)) report.probes = view_probes(*bake.probes, *codec);
+    return report;
+}
+
+Result<std::string> bake_report(const Scene& scene, const Bake& bake, const ReportOptions& options,
+                                const RenderOptions& pictures) {
+    auto report = bake_report_of(scene, bake);
+    if (!report) return report.error();
+    if (bake.preflight) add_preflight(*report, *bake.preflight, scene);
+    RenderOptions of_pictures = pictures;
+    of_pictures.width = options.width;
+    of_pictures.height = options.height;
+    of_pictures.samples = options.samples;
+    auto views = render_views(scene, report->light, bake.manifest.options.paths, of_pictures);
+    if (!views) return Error{"stopped"};
+    report->views = std::move(*views);
+    return bake_html(*report);
 }
 
 }  // namespace lobelia

@@ -106,11 +106,11 @@ Json probes_of(const ProbeView& probes, std::map<std::string, Picture>& pictures
 /// Mean luminance of E over the texels that were baked.
 double mean_irradiance(const BakeReport& bake) {
     double sum = 0, count = 0;
-    const PageLayout& layout = bake.light.layout;
-    for (const Page& page : bake.light.pages)
+    const PageChannels& channels = bake.light.channels;
+    for (const LightmapPage& page : bake.light.pages)
         for (std::size_t i = 0; i < page.size(); ++i) {
             if (page.chart[i] == 0) continue;
-            const auto plane = [&](std::size_t k) { return page.planes[layout.irradiance(k)][i]; };
+            const auto plane = [&](std::size_t k) { return page.planes[channels.irradiance(k)][i]; };
             sum += static_cast<double>(luminance({plane(0), plane(1), plane(2)}));
             count += 1;
         }
@@ -120,11 +120,11 @@ double mean_irradiance(const BakeReport& bake) {
 }  // namespace
 
 std::string bake_html(const BakeReport& bake, const BakeReportOptions& options) {
-    const bool has_codec = bake.light.codec != nullptr;
+    const bool has_codec = bake.light.codec.has_value();
     BakeLayers layers = bake_layers(bake, options);
     std::map<std::string, Picture>& pictures = layers.pictures;
     Json pages = Json::array(), objects = Json::array(), settings = Json::array();
-    for (const Page& page : bake.light.pages) pages.push_back({{"width", page.width}, {"height", page.height}});
+    for (const LightmapPage& page : bake.light.pages) pages.push_back({{"width", page.width}, {"height", page.height}});
     for (const ObjectFigures& object : bake.objects) objects.push_back(to_json(object, has_codec));
     for (const auto& [name, value] : bake.settings) settings.push_back({name, value});
     Json data = {{"lobelia", LOBELIA_VERSION},

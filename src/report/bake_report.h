@@ -7,10 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "bake/baker.h"
 #include "bake/render/render.h"
-#include "bake/session/preflight.h"
-#include "bake/write/bake_folder.h"
 #include "lobelia/image.h"
 #include "measure/bake_figures.h"
 #include "measure/bake_views.h"
@@ -38,7 +35,7 @@ struct BakeReport {
     std::vector<BakeView> views;
     BakedLight light;                                ///< the lightmap pages
     std::vector<std::vector<Rgb>> codec_irradiance;  ///< of each page, as page_irradiance gives it
-    std::vector<std::uint32_t> object_of_chart;      ///< as objects_of_charts gives it
+    std::vector<std::uint32_t> object_of_chart;      ///< Preflight::object_of_chart
     std::vector<ObjectFigures> objects;              ///< in the scene's order, as object_figures gives them
     std::optional<ProbeView> probes;
     std::vector<PreflightCheck> checks;
@@ -49,13 +46,11 @@ struct BakeReport {
 /// Names and values of a bake's options, for the report's header.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> bake_settings(const BakeOptions& options,
                                                                              std::size_t pages);
-/// Everything but warnings, views and preflight of a bake in memory.
-/// Preconditions: `baker` has run, `bake` is as it is written; both outlive the report.
-[[nodiscard]] BakeReport bake_report_of(const Scene& scene, const Baker& baker, const Bake& bake);
+/// Everything but views and preflight of a bake, which must outlive the result. Error: its codec is unknown.
+[[nodiscard]] Result<BakeReport> bake_report_of(const Scene& scene, const Bake& bake);
 
-/// Adds the results of preflight: checks, densities, a picture of each lightmap page.
-void add_preflight(BakeReport& report, const Preflight& preflight, const Scene& scene, const Atlas& atlas,
-                   const TexelMap& map);
+/// Adds the results of a preflight: checks, densities, a picture of each page.
+void add_preflight(BakeReport& report, const Preflight& preflight, const Scene& scene);
 
 struct BakeReportOptions {
     std::size_t most_layer_bytes = std::size_t{24} << 20;  ///< of the lightmaps' pictures; larger ones are reduced
@@ -64,5 +59,9 @@ struct BakeReportOptions {
 /// The HTML: CSS, scripts, pictures and data are inside, and it loads nothing. Whatever strings the bake holds cannot
 /// end the element that they are in.
 [[nodiscard]] std::string bake_html(const BakeReport& bake, const BakeReportOptions& options = {});
+
+/// Renders the scene from its cameras, and makes the whole report of a bake. Error: pictures.stop was set.
+[[nodiscard]] Result<std::string> bake_report(const Scene& scene, const Bake& bake, const ReportOptions& options,
+                                              const RenderOptions& pictures = {});
 
 }  // namespace lobelia
