@@ -190,6 +190,89 @@ static void test_errors_are_status_and_text(void) {
     lob_textures_free(NULL);
 }
 
+struct watch {
+    double last;
+    int calls;
+    lob_stop* stop; /* set at the first call, if there is one */
+};
+
+static void watch_progress(void* user, double done, const char* stage) {
+    struct watch* watch = user;
+    CHECK(done >= 0 && done <= 1 && strcmp(stage, "texels") == 0);
+    watch->last = done;
+    ++watch->calls;
+    if (watch->stop != NULL) lob_stop_set(watch->stop);
+}
+
+/* A bake's coefficients give the irradiance that its paths measured, in the mean. */
+static void test_bake(void) {
+    lob_scene* scene = NULL;
+    lob_bake *bake = NULL, *again = NULL;
+    lob_bake_options options;
+    struct watch watch = {0, 0, NULL};
+    const float *c = NULL, *other = NULL, *E = NULL, *validity = NULL;
+    size_t i, lit = 0, texels;
+    require(lob_scene_load("cornell", &scene), "scene");
+    lob_bake_options_init(&options, sizeof options);
+    CHECK(options.samples == 256 && options.bounces == 8 && options.denoise == 1);
+    options.codec = "sh1/least-squares/convolution";
+    options.width = options.height = 32;
+    options.samples = 32;
+    options.progress = watch_progress;
+    options.user = &watch;
+    require(lob_bake_scene(scene, &options, &bake), "bake");
+    CHECK(watch.calls > 0);
+    CHECK(strcmp(lob_bake_codec(bake), options.codec) == 0 && lob_bake_coefficient_count(bake) == 4);
+    CHECK(lob_bake_page_count(bake) == 1 && lob_bake_width(bake) == 32 && lob_bake_height(bake) == 32);
+    texels = lob_bake_width(bake) * lob_bake_height(bake);
+    CHECK(lob_bake_channel(bake, 0, "c0.G", &c) == LOB_OK && lob_bake_channel(bake, 0, "E.G", &E) == LOB_OK);
+    CHECK(lob_bake_channel(bake, 0, "validity", &validity) == LOB_OK);
+    for (i = 0; i < texels; ++i) {
+        CHECK(isfinite(c[i]) && E[i] >= 0 && validity[i] >= 0 && validity[i] <= 1);
+        if (c[i] > 0 && E[i] > 0) ++lit;
+    }
+    CHECK(lit > texels / 4);
+
+    /* The same options give the same bits at another number of threads. */
+    options.threads = 1;
+    require(lob_bake_scene(scene, &options, &again), "bake again");
+    CHECK(lob_bake_channel(again, 0, "c0.G", &other) == LOB_OK);
+    CHECK(memcmp(c, other, texels * sizeof *c) == 0);
+
+    CHECK(lob_bake_channel(bake, 1, "c0.G", &c) == LOB_MISUSE);
+    CHECK(lob_bake_channel(bake, 0, "c4.G", &c) == LOB_BAD_INPUT);
+    lob_bake_free(bake);
+    lob_bake_free(again);
+    lob_scene_free(scene);
+}
+
+static void test_bake_stops_and_refuses(void) {
+    lob_scene* scene = NULL;
+    lob_environment* sky = NULL;
+    lob_bake* bake = NULL;
+    lob_bake_options options;
+    struct watch watch = {0, 0, NULL};
+    require(lob_scene_load("cornell", &scene), "scene");
+    require(lob_environment_sky(16, 8, 3, 40, 45, &sky), "sky");
+    CHECK(lob_scene_set_environment(scene, sky) == LOB_OK && lob_scene_set_environment(scene, NULL) == LOB_OK);
+    require(lob_stop_create(&watch.stop), "stop");
+    lob_bake_options_init(&options, sizeof options);
+    options.width = options.height = 64;
+    options.samples = 100000;
+    options.progress = watch_progress;
+    options.user = &watch;
+    options.stop = watch.stop;
+    CHECK(lob_bake_scene(scene, &options, &bake) == LOB_STOPPED && bake == NULL);
+    options.samples = 0;
+    CHECK(lob_bake_scene(scene, &options, &bake) == LOB_BAD_INPUT && strstr(lob_error(), "samples") != NULL);
+    CHECK(lob_bake_read("no such folder", &bake) == LOB_BAD_INPUT && bake == NULL);
+    CHECK(lob_scene_load("no such scene.glb", &scene) == LOB_BAD_INPUT);
+    lob_stop_free(watch.stop);
+    lob_scene_free(scene);
+    lob_environment_free(sky);
+    lob_bake_free(NULL);
+}
+
 int main(void) {
     CHECK(lob_interface() == LOB_INTERFACE);
     CHECK(strcmp(lob_error(), "") == 0);
@@ -198,6 +281,8 @@ int main(void) {
     test_merge_equals_sequential();
     test_pack_round_trip();
     test_errors_are_status_and_text();
+    test_bake();
+    test_bake_stops_and_refuses();
     if (failures == 0) printf("lobelia %s: all passed\n", lob_version());
     return failures == 0 ? 0 : 1;
 }
