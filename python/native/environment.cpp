@@ -57,7 +57,7 @@ void add_environment(py::module_& module) {
     py::class_<Environment>(module, "Environment", "A latitude-longitude image of radiance [W/(m^2 sr)]; y is up.")
         .def(py::init(&from_pixels), py::arg("pixels"), "Copies an array of shape (height, width, 3).")
         .def_static("load", &load, py::arg("path"), py::kw_only(), py::arg("ldr") = false, py::arg("sanitize") = false,
-                    "Reads a Radiance .hdr or OpenEXR file. ldr: accept PNG, JPEG and BMP, too, decoded from sRGB. "
+                    "Reads a Radiance .hdr or OpenEXR file. ldr: accept PNG, JPEG and WebP, too, decoded from sRGB. "
                     "sanitize: replace NaN, infinite and negative components by 0 instead of raising Error.")
         .def_static(
             "sky", &make_sky, py::arg("size") = std::pair(512, 256), py::kw_only(),
