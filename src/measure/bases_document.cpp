@@ -170,21 +170,12 @@ std::string section(const std::vector<BasisPtr>& family) {
     text += wrapped("**Good at** " + std::string(card.good_at) + ".") + "\n";
     text += wrapped("**Bad at** " + std::string(card.bad_at) + ".") + "\n";
     text += wrapped(ranges(family.back())) + "\n";
-<<<<<<< HEAD:src/report/bases_page.cpp
-    const bool all = first.linear() && card.encoders.empty();
-    text += wrapped("Listed with " +
-                    (all ? std::string("every compatible encoder") : "the encoders " + joined(encoder_names(first))) +
-                    "." + vectors_among(first)) +
-            "\n";
-    return text + evaluators(family) + gloss(family);
-=======
     const bool all = first.linear() && card.encoders.empty();
     text += wrapped("Listed with " +
                     (all ? std::string("every compatible encoder") : "the encoders " + joined(encoder_names(first))) +
                     "." + vectors_among(first)) +
             "\n";
     return text + evaluators(family) + specular(family);
->>>>>>> web:src/measure/bases_document.cpp
 }
 
 }  // namespace

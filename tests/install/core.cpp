@@ -1,3 +1,4 @@
+// A project that uses the core.
 #include <lobelia/lobelia.h>
 
 #include <iostream>
