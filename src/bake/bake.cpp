@@ -99,7 +99,8 @@ Status finish(BakeWork& work, const FinishOptions& steps, const BakeSession& ses
     const BakeSetup& setup = *work.setup;
     std::vector<LightmapPage>& pages = work.bake.pages;
     std::vector<std::string>& taken = work.bake.manifest.finish;
-    Guides guides = make_guides(setup.atlas, map_texels(setup.atlas));
+    const TexelMap map = map_texels(setup.atlas);
+    Guides guides = make_guides(setup.atlas, map);
     if (steps.denoise == Switch::on) {
         if (denoise_pages(pages, setup.encoding, guides))
             taken.emplace_back("denoise");
@@ -111,7 +112,9 @@ Status finish(BakeWork& work, const FinishOptions& steps, const BakeSession& ses
     if (auto status = complete(pages); !status) return status;
     const bool fitted = pages.front().planes.size() != setup.encoding.page_channels().count();
     if (steps.seams == Switch::on) {
-        if (!fitted) close_seams(pages, setup.encoding.page_channels(), setup.atlas);
+        SeamSurroundings around{setup.tracer.get(), {}};
+        if (setup.options.push_out == Switch::on) around.displaced = displaced_texels(setup.atlas, map, *setup.tracer);
+        if (!fitted) close_seams(pages, setup.encoding.page_channels(), setup.atlas, {}, around);
         taken.emplace_back("seams");
     }
     if (steps.dilate == Switch::on) {
