@@ -84,5 +84,22 @@ TEST(Cases, PlainIrradianceIsNeverNegative) {
             for (const float e : page.planes[bake->channels().irradiance(k)]) EXPECT_GE(e, 0);
 }
 
+TEST(Cases, PagesHoldWhatHalfFloatsCannot) {
+    const test::TestFolder folder("cases-sun");
+    const fs::path path = fs::path(LOBELIA_SHARED_DIR) / "cases" / "d04-sun-100000.glb";
+    if (!fs::exists(path)) GTEST_SKIP();
+    const auto loaded = load_scene({.path = path.string()});
+    ASSERT_TRUE(loaded) << loaded.error().message;
+    BakeSession session;
+    session.folder = folder.path();
+    ASSERT_TRUE(bake(loaded->scene, plain_job(), session));
+    const auto read = read_bake(folder.path());
+    ASSERT_TRUE(read) << read.error().message;
+    float largest = 0;
+    for (const float e : read->pages[0].planes[read->channels().irradiance(1)]) largest = std::max(largest, e);
+    EXPECT_NEAR(largest, 100000, 10);
+    EXPECT_EQ(read->manifest.precision, Precision::full);
+}
+
 }  // namespace
 }  // namespace lobelia
