@@ -102,20 +102,16 @@ Result<BakeJob> load_job(const std::filesystem::path& out) {
         return Error{out.string() + ": holds no bake to go on with: " + path + " is not there"};
     const auto text = read_text(path, 1);
     if (!text) return text.error();
-    try {
-        const nlohmann::json json = parse_json(*text, path);
-        const JsonPlace document(json, path);
-        if (document.at("lobelia_bake_job").whole(0, k_any_u64) != k_version)
-            document.at("lobelia_bake_job").refuse(fmt::format("this program reads version {}", k_version));
+    return read_json(*text, path, [&](const JsonPlace& top) {
+        if (top.at("lobelia_bake_job").whole(0, k_any_u64) != k_version)
+            top.at("lobelia_bake_job").refuse(fmt::format("this program reads version {}", k_version));
         BakeJob job;
-        JsonFieldReader reader(document);
+        JsonFieldReader reader(top);
         fields(reader, job);
         job.out = out;
         job.bake.checkpoint = checkpoint_folder(out);
         return job;
-    } catch (const JsonRefusal& refusal) {
-        return Error{refusal.what()};
-    }
+    });
 }
 
 }  // namespace cli

@@ -254,7 +254,7 @@ Result<std::vector<Rgb>> convention_from_text(const ShConvention& convention, st
     const std::size_t first = text.find_first_not_of(" \t\r\n");
     const bool is_rows = first != std::string_view::npos && (text[first] == '(' || text.substr(first, 2) == "//");
     if (convention.form == Form::rows && is_rows) return rows_of_text(convention, text, name);
-    const auto file = checked_json(text, name);
+    const auto file = parse_json(text, name);
     if (!file) return file.error();
     return Reader(convention, name).read(*file);
 }

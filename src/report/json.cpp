@@ -139,43 +139,28 @@ json to_json(const CoefficientFile& file) {
 }
 
 Result<CoefficientFile> coefficients_from_json(std::string_view text, const std::string& name) {
-    const auto parsed = checked_json(text, name);
-    if (!parsed) return parsed.error();
-    const json& content = *parsed;
-    if (!content.is_object()) return Error{name + ": not a JSON object of coefficients"};
-    // By reference: copying what is nested a million deep would overflow the stack.
-    const auto member = [&, none = json()](const char* key) -> const json& {
-        return content.contains(key) ? content[key] : none;
-    };
-
-    const json& format = member("lobelia_coefficients");
-    if (!format.is_number_integer())
-        return Error{name + ": no \"lobelia_coefficients\" version in it; is it from `lobelia encode`?"};
-    if (format.get<long long>() != k_coefficient_format)
-        return Error{name + ": version " + format.dump() + ", but this program reads version " +
-                     std::to_string(k_coefficient_format) + "; write it again with `lobelia encode`"};
-    if (!member("codec").is_string()) return Error{name + ": no \"codec\" in it"};
-    const auto codec = make_codec(member("codec").get<std::string>());
-    if (!codec) return Error{name + ": " + codec.error().message};
-
-    const json& list = member("coefficients");
-    const std::size_t expected = codec->basis().size();
-    if (!list.is_array() || list.size() != expected)
-        return Error{name + ": " + codec->name().basis + " has " + std::to_string(expected) +
-                     " coefficients, but the file holds " + std::to_string(list.is_array() ? list.size() : 0)};
-    CoefficientFile file{codec->name(), {}};
-    for (std::size_t i = 0; i < expected; ++i) {
-        std::array<float, 3> rgb{};
-        bool good = list[i].is_array() && list[i].size() == 3;
-        for (std::size_t k = 0; good && k < 3; ++k) {
-            good = list[i][k].is_number();
-            if (good) rgb[k] = static_cast<float>(list[i][k].get<double>());
-            good = good && std::isfinite(rgb[k]);
+    return read_json(text, name, [](const JsonPlace& top) {
+        if (!top.has("lobelia_coefficients"))
+            top.refuse("no \"lobelia_coefficients\" version; is it from `lobelia encode`?");
+        const auto version = top.at("lobelia_coefficients").whole(0, ~std::uint64_t{0});
+        if (version != static_cast<std::uint64_t>(k_coefficient_format))
+            top.at("lobelia_coefficients")
+                .refuse("version " + std::to_string(version) + ", but this program reads version " +
+                        std::to_string(k_coefficient_format) + "; write it again with `lobelia encode`");
+        const auto codec = make_codec(top.at("codec").text());
+        if (!codec) top.at("codec").refuse(codec.error().message);
+        const JsonPlace list = top.at("coefficients");
+        const std::size_t expected = codec->basis().size();
+        if (list.is_list() && list.size() != expected)
+            list.refuse(codec->name().basis + " has " + std::to_string(expected) + " coefficients, but the file holds " +
+                        std::to_string(list.size()));
+        CoefficientFile file{codec->name(), {}};
+        for (const JsonPlace& rgb : list.list_of(expected)) {
+            const Vec3 c = rgb.vector();
+            file.c.push_back({c.x, c.y, c.z});
         }
-        if (!good) return Error{name + ": coefficient " + std::to_string(i) + " is not three finite numbers"};
-        file.c.push_back({rgb[0], rgb[1], rgb[2]});
-    }
-    return file;
+        return file;
+    });
 }
 
 }  // namespace lobelia

@@ -7,7 +7,9 @@
 // With a JsonFieldWriter it fills an object, with a JsonFieldReader it reads one; what is missing keeps its value.
 #pragma once
 
-#include "bake/write/json_place.h"
+#include <nlohmann/json.hpp>
+
+#include "io/json.h"
 
 namespace lobelia {
 

@@ -5,8 +5,9 @@
 
 #include <bit>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
-#include "bake/write/json_place.h"
+#include "io/json.h"
 #include "io/read_file.h"
 #include "lobelia/codec.h"
 
@@ -137,14 +138,11 @@ Status write_probe_coefficients(StagedFile& file, const ProbeSet& probes) {
 }
 
 Result<ProbeDescription> probes_from_json(std::string_view text, const std::string& name) {
-    try {
-        const nlohmann::json document = parse_json(text, name);
+    return read_json(text, name, [](const JsonPlace& top) {
         ProbeDescription result;
-        result.file = read_description(JsonPlace(document, name), result.probes);
+        result.file = read_description(top, result.probes);
         return result;
-    } catch (const JsonRefusal& refusal) {
-        return Error{refusal.what()};
-    }
+    });
 }
 
 Result<ProbeSet> read_probes(const std::filesystem::path& path) {

@@ -179,12 +179,7 @@ Manifest read_all(const JsonPlace& top) {
 }  // namespace
 
 Result<Manifest> manifest_from_json(std::string_view text, const std::string& name) {
-    try {
-        const nlohmann::json document = parse_json(text, name);
-        return read_all(JsonPlace(document, name));
-    } catch (const JsonRefusal& refusal) {
-        return Error{refusal.what()};
-    }
+    return read_json(text, name, read_all);
 }
 
 std::filesystem::path bake_folder(const std::filesystem::path& path) {
