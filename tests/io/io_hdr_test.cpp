@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <functional>
 
+#include "data.h"
 #include "io/read_image.h"
 #include "io/write_file.h"
 #include "io_files.h"
