@@ -53,7 +53,6 @@ struct Workplace {
     PathTracer tracer;
     Surfaces surfaces;
     RayScene rays;
-    std::vector<Vec3> positions;
     std::vector<Receiver> receivers;
     std::vector<PathTracer::Ray> incoherent;
 
@@ -75,14 +74,13 @@ struct Workplace {
         for (std::uint32_t t = 0; t < surfaces.size(); ++t)
             areas.push_back(length(cross(surfaces.facet(t).edge_u, surfaces.facet(t).edge_v)));
         const AliasTable table(areas);
-        positions.reserve(count);
         for (std::uint32_t i = 0; i < count; ++i) {
             const Facet& f = surfaces.facet(static_cast<std::uint32_t>(table.sample((i + 0.5) / count).index));
             const Pair p = pair(0, i, 0, 1);
             const float root = std::sqrt(p.a);
-            positions.push_back(f.corner + f.edge_u * (root * (1 - p.b)) + f.edge_v * (root * p.b) + f.normal * f.lift);
             Receiver r;
-            r.positions = {&positions.back(), 1};
+            r.positions[0] = f.corner + f.edge_u * (root * (1 - p.b)) + f.edge_v * (root * p.b) + f.normal * f.lift;
+            r.position_count = 1;
             r.normal = f.normal;
             r.key = i;
             receivers.push_back(r);

@@ -108,7 +108,7 @@ bool write_bake_seeds(const std::filesystem::path& folder) {
                tangent = test::some_bake("sg12h/moments/exact", Frame::tangent);
     Manifest textured = world.manifest;
     const CoefficientTraits traits = coefficient_traits(*make_codec(textured.options.codec)->encoder());
-    BakedPage page{"page-0.exr", {}, "page-0.validity.ktx2"};
+    PageEntry page{"page-0.exr", {}, "page-0.validity.ktx2"};
     for (const auto& texture : find_storage("ratio8").value()->layout(traits).textures)
         page.textures.push_back({"ratio8", "page-0." + texture.name + ".ktx2", texture});
     textured.pages = {page, {"page-1.exr", {}, {}}};

@@ -9,6 +9,9 @@
 
 namespace lobelia {
 
+/// Floats of 16 or 32 bits.
+enum class Precision { half, full };
+
 /// `width` x `height` linear Rec. 709 pixels, row by row from the top left.
 struct Image {
     std::size_t width = 0;

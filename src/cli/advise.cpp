@@ -7,6 +7,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "bake/write/manifest.h"
 #include "cli/bake_input.h"
 #include "cli/common.h"
 #include "cli/verbs.h"
@@ -104,13 +105,14 @@ bool is_scene(const std::string& path) {
 }
 
 Result<LoadedScene> load_scene_for(const AdviseArguments& options) {
-    SceneOptions scene;
+    SceneSource scene;
     scene.path = options.environment.path;
-    scene.read = options.environment.read;
+    scene.ldr = options.environment.read.ldr ? Switch::on : Switch::off;
+    scene.sanitize = options.environment.read.sanitize ? Switch::on : Switch::off;
     if (!is_bake(scene.path)) return load_scene(scene);
     const auto manifest = read_manifest(scene.path);
     if (!manifest) return manifest.error();
-    return load_scene_of_bake(scene, *manifest);
+    return read_baked_scene(scene.path, *manifest, scene);
 }
 
 Result<std::vector<Candidate>> candidates_for_scene(const AdviseArguments& options) {

@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include "bake/render/render.h"
+#include "lobelia/render.h"
 
 namespace lobelia::cli {
 namespace {
@@ -56,7 +56,7 @@ Result<Camera> find_camera(const Scene& scene, const std::string& text) {
     const auto numbers = parse_numbers(text);
     if (numbers && (numbers->size() == 6 || numbers->size() == 7)) return camera_from(*numbers, text);
     if (numbers && numbers->size() == 1 && numbers->front() >= 0 && numbers->front() == std::floor(numbers->front())) {
-        if (scene.cameras.empty() && numbers->front() == 0) return default_camera(make_world(scene));
+        if (scene.cameras.empty() && numbers->front() == 0) return default_camera(scene);
         if (numbers->front() < static_cast<float>(scene.cameras.size()))
             return scene.cameras[static_cast<std::size_t>(numbers->front())];
     }

@@ -95,39 +95,6 @@ Result<LatLong> parse_grid(const std::string& text) {
     return grid;
 }
 
-Status check_folder(const std::filesystem::path& folder) {
-    // Ask the folder, or the nearest one above it that is there.
-    namespace fs = std::filesystem;
-    std::error_code code;
-    fs::path existing = fs::absolute(folder, code);
-    while (!fs::exists(existing, code) && existing.has_relative_path()) existing = existing.parent_path();
-    if (!fs::is_directory(existing, code))
-        return Error{folder.string() + ": cannot be made a folder: " + existing.string() + " is not one"};
-    if (access(existing.c_str(), W_OK | X_OK) != 0)
-        return Error{folder.string() + ": cannot be written to: " + std::generic_category().message(errno)};
-    return Done{};
-}
-
-Status check_file(const std::filesystem::path& file) {
-    namespace fs = std::filesystem;
-    std::error_code code;
-    const fs::path folder = fs::absolute(file, code).parent_path();
-    if (!fs::is_directory(folder, code))
-        return Error{file.string() + ": cannot be written: there is no folder " + folder.string()};
-    if (access(folder.c_str(), W_OK | X_OK) != 0)
-        return Error{file.string() + ": cannot be written: " + std::generic_category().message(errno)};
-    return Done{};
-}
-
-Status write_into_folder(const std::filesystem::path& folder, std::span<const FileContent> files) {
-    std::error_code code;
-    const bool made = std::filesystem::create_directories(folder, code);
-    if (code) return Error{folder.string() + ": cannot be made a folder: " + code.message()};
-    auto status = write_files_together(files);
-    if (!status && made) std::filesystem::remove(folder, code);
-    return status;
-}
-
 void complain(const std::string& line) {
     std::fputs((line + "\n").c_str(), stderr);
     std::fflush(stderr);

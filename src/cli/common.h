@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "io/folders.h"
 #include "io/read_file.h"
 #include "io/read_image.h"
 #include "io/write_file.h"
@@ -48,16 +49,6 @@ void add_sampling_options(CLI::App& command, SamplingOptions& options);
 
 /// "256x128" as a grid of at least 1 x 1 and at most 2^26 texels.
 [[nodiscard]] Result<LatLong> parse_grid(const std::string& text);
-
-/// Whether files can be written into the folder, which need not be there yet: asked before the work, so that a bad one
-/// costs no time.
-[[nodiscard]] Status check_folder(const std::filesystem::path& folder);
-/// An error where a file of that name could not be written for want of its folder or of permission; to be asked before
-/// long work.
-[[nodiscard]] Status check_file(const std::filesystem::path& file);
-
-/// Makes the folder if it is missing, and writes all files or none; a folder made in vain is removed again.
-[[nodiscard]] Status write_into_folder(const std::filesystem::path& folder, std::span<const FileContent> files);
 
 /// A line on stderr; where nobody listens any more, it is lost and nothing else changes.
 void complain(const std::string& line);

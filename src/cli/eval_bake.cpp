@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "bake/write/irradiance_files.h"
+#include "bake/write/manifest.h"
 #include "cli/common.h"
 
 namespace lobelia::cli {

@@ -33,7 +33,7 @@ struct StudyArguments {
     EnvironmentOptions environment;
     std::vector<std::string> bases = first_bases();
     EncoderStudyOptions encoders;
-    SceneOptions scene;
+    SceneSource scene;
     BakeStudyOptions bake;
     int bounces = 8;
 };

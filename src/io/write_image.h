@@ -18,7 +18,7 @@
 namespace lobelia {
 
 struct ExrOptions {
-    enum class Precision { half, full };
+    using Precision = lobelia::Precision;
     /// Half holds 11 bits; finite values beyond +-65504 are stored as that.
     Precision precision = Precision::full;
 };

@@ -43,17 +43,6 @@ std::vector<std::pair<std::string, std::string>> bake_settings(const BakeOptions
     return facts;
 }
 
-std::vector<std::uint32_t> objects_of_charts(const Atlas& atlas) {
-    std::vector<std::uint32_t> objects;
-    const auto& charts = atlas.chart_of_triangle();
-    for (std::size_t t = 0; t < charts.size(); ++t) {
-        if (charts[t] == Atlas::k_no_chart) continue;
-        if (charts[t] >= objects.size()) objects.resize(charts[t] + std::size_t{1});
-        objects[charts[t]] = atlas.world().object[t];
-    }
-    return objects;
-}
-
 std::vector<ObjectFigures> object_figures(const Scene& scene, const BakedLight& light,
                                           std::span<const std::uint32_t> object_of_chart,
                                           std::span<const std::vector<Rgb>> codec_irradiance) {
@@ -61,7 +50,7 @@ std::vector<ObjectFigures> object_figures(const Scene& scene, const BakedLight& 
     for (const Object& object : scene.objects) figures.emplace_back().name = object.name;
     std::vector<ObjectSums> sums(figures.size());
     for (std::size_t p = 0; p < light.pages.size(); ++p) {
-        const Page& page = light.pages[p];
+        const LightmapPage& page = light.pages[p];
         for (std::size_t i = 0; i < page.size(); ++i) {
             if (page.chart[i] == 0 || page.chart[i] > object_of_chart.size()) continue;
             const std::uint32_t number = object_of_chart[page.chart[i] - 1];
@@ -74,9 +63,9 @@ std::vector<ObjectFigures> object_figures(const Scene& scene, const BakedLight& 
                 object.invalid += 1;
                 continue;
             }
-            const auto plane = [&](std::size_t k) { return page.planes[light.layout.irradiance(k)][i]; };
+            const auto plane = [&](std::size_t k) { return page.planes[light.channels.irradiance(k)][i]; };
             const Rgb e{plane(0), plane(1), plane(2)};
-            const double error = static_cast<double>(page.planes[light.layout.error()][i]);
+            const double error = static_cast<double>(page.planes[light.channels.error()][i]);
             ObjectSums& sum = sums[number];
             sum.irradiance[0] += static_cast<double>(e.r);
             sum.irradiance[1] += static_cast<double>(e.g);

@@ -14,6 +14,6 @@ struct BakeLayers {
     std::vector<nlohmann::json> layers;
     std::map<std::string, Picture> pictures;
 };
-[[nodiscard]] BakeLayers bake_layers(const BakePage& bake, const BakePageOptions& options);
+[[nodiscard]] BakeLayers bake_layers(const BakeReport& bake, const BakeReportOptions& options);
 
 }  // namespace lobelia

@@ -62,7 +62,7 @@ const char* level_name(PreflightCheck::Level level) {
 Picture encode(const Image& image) { return encode_picture(std::span(image.pixels), image.width, image.height); }
 
 /// Pictures go to `pictures`, and their names into the JSON.
-Json views_of(const BakePage& bake, std::map<std::string, Picture>& pictures) {
+Json views_of(const BakeReport& bake, std::map<std::string, Picture>& pictures) {
     Json views = Json::array();
     for (std::size_t i = 0; i < bake.views.size(); ++i) {
         const BakeView& view = bake.views[i];
@@ -74,7 +74,7 @@ Json views_of(const BakePage& bake, std::map<std::string, Picture>& pictures) {
     return views;
 }
 
-Json preflight_of(const BakePage& bake, std::map<std::string, Picture>& pictures) {
+Json preflight_of(const BakeReport& bake, std::map<std::string, Picture>& pictures) {
     Json checks = Json::array(), shown = Json::array();
     for (const PreflightCheck& check : bake.checks)
         checks.push_back({{"level", level_name(check.level)}, {"name", check.name}, {"text", check.text}});
@@ -103,13 +103,13 @@ Json probes_of(const ProbeView& probes, std::map<std::string, Picture>& pictures
 }
 
 /// Mean luminance of E over the texels that were baked.
-double mean_irradiance(const BakePage& bake) {
+double mean_irradiance(const BakeReport& bake) {
     double sum = 0, count = 0;
-    const PageLayout& layout = bake.light.layout;
-    for (const Page& page : bake.light.pages)
+    const PageChannels& channels = bake.light.channels;
+    for (const LightmapPage& page : bake.light.pages)
         for (std::size_t i = 0; i < page.size(); ++i) {
             if (page.chart[i] == 0) continue;
-            const auto plane = [&](std::size_t k) { return page.planes[layout.irradiance(k)][i]; };
+            const auto plane = [&](std::size_t k) { return page.planes[channels.irradiance(k)][i]; };
             sum += static_cast<double>(luminance({plane(0), plane(1), plane(2)}));
             count += 1;
         }
@@ -118,12 +118,12 @@ double mean_irradiance(const BakePage& bake) {
 
 }  // namespace
 
-std::string bake_html(const BakePage& bake, const BakePageOptions& options) {
-    const bool has_codec = bake.light.codec != nullptr;
+std::string bake_html(const BakeReport& bake, const BakeReportOptions& options) {
+    const bool has_codec = bake.light.codec.has_value();
     BakeLayers layers = bake_layers(bake, options);
     std::map<std::string, Picture>& pictures = layers.pictures;
     Json pages = Json::array(), objects = Json::array(), settings = Json::array();
-    for (const Page& page : bake.light.pages) pages.push_back({{"width", page.width}, {"height", page.height}});
+    for (const LightmapPage& page : bake.light.pages) pages.push_back({{"width", page.width}, {"height", page.height}});
     for (const ObjectFigures& object : bake.objects) objects.push_back(to_json(object, has_codec));
     for (const auto& [name, value] : bake.settings) settings.push_back({name, value});
     Json data = {{"lobelia", LOBELIA_VERSION},

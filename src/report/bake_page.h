@@ -5,10 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "bake/baker.h"
 #include "bake/render/render.h"
-#include "bake/session/preflight.h"
-#include "bake/write/bake_folder.h"
 #include "lobelia/image.h"
 #include "report/bake_probes.h"
 
@@ -44,7 +41,7 @@ struct PreflightPicture {
 };
 
 /// All that the page shows; what is empty is left out.
-struct BakePage {
+struct BakeReport {
     std::string title;
     std::vector<std::pair<std::string, std::string>> settings;  ///< names and values, as bake_settings gives them
     std::optional<BakeStatistics> statistics;
@@ -52,7 +49,7 @@ struct BakePage {
     std::vector<BakeView> views;
     BakedLight light;                                ///< the pages
     std::vector<std::vector<Rgb>> codec_irradiance;  ///< of each page, as page_irradiance gives it
-    std::vector<std::uint32_t> object_of_chart;      ///< as objects_of_charts gives it
+    std::vector<std::uint32_t> object_of_chart;      ///< Preflight::object_of_chart
     std::vector<ObjectFigures> objects;              ///< in the scene's order, as object_figures gives them
     std::optional<ProbeView> probes;
     std::vector<PreflightCheck> checks;
@@ -63,16 +60,13 @@ struct BakePage {
 /// What a reader wants to know of a bake's options.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> bake_settings(const BakeOptions& options,
                                                                              std::size_t pages);
-/// The object of each chart.
-[[nodiscard]] std::vector<std::uint32_t> objects_of_charts(const Atlas& atlas);
 /// One entry for each object of the scene; names are those of `scene`. `codec_irradiance` may be empty.
 [[nodiscard]] std::vector<ObjectFigures> object_figures(const Scene& scene, const BakedLight& light,
                                                         std::span<const std::uint32_t> object_of_chart,
                                                         std::span<const std::vector<Rgb>> codec_irradiance);
 
-/// Everything but warnings, views and preflight of a bake that is in memory: `bake` as it is written, `baker` after it
-/// has run. Both must outlive the page.
-[[nodiscard]] BakePage bake_page_of(const Scene& scene, const Baker& baker, const Bake& bake);
+/// Everything but views and preflight of a bake, which must outlive the result. An error if its codec is unknown.
+[[nodiscard]] Result<BakeReport> bake_page_of(const Scene& scene, const Bake& bake);
 
 /// The scene from each of its cameras, or the default one, at most `most`: lit by the bake and path-traced with the
 /// bake's options. Nothing where options.stop was set on the way.
@@ -80,16 +74,19 @@ struct BakePage {
                                                                 const PathOptions& paths, const RenderOptions& options,
                                                                 std::size_t most = 4);
 
-/// What preflight found: checks, the densities, a picture of each page.
-void add_preflight(BakePage& page, const Preflight& preflight, const Scene& scene, const Atlas& atlas,
-                   const TexelMap& map);
+/// Adds the results of a preflight: checks, densities, a picture of each page.
+void add_preflight(BakeReport& page, const Preflight& preflight, const Scene& scene);
 
-struct BakePageOptions {
+struct BakeReportOptions {
     std::size_t most_layer_bytes = std::size_t{24} << 20;  ///< of the lightmaps' pictures; larger ones are reduced
 };
 
 /// The HTML: CSS, scripts, pictures and data are inside, and it loads nothing. Whatever strings the bake holds cannot
 /// end the element that they are in.
-[[nodiscard]] std::string bake_html(const BakePage& bake, const BakePageOptions& options = {});
+[[nodiscard]] std::string bake_html(const BakeReport& bake, const BakeReportOptions& options = {});
+
+/// Renders the scene from its cameras, and makes the whole report of a bake. An error if pictures.stop was set.
+[[nodiscard]] Result<std::string> bake_report(const Scene& scene, const Bake& bake, const ReportOptions& options,
+                                              const RenderOptions& pictures = {});
 
 }  // namespace lobelia

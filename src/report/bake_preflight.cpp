@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "bake/preflight/preflight.h"
 #include "io/counted.h"
 #include "report/bake_page.h"
 
@@ -29,18 +30,17 @@ Image as_linear_values(const Image8& picture) {
 
 }  // namespace
 
-void add_preflight(BakePage& page, const Preflight& preflight, const Scene& scene, const Atlas& atlas,
-                   const TexelMap& map) {
+void add_preflight(BakeReport& page, const Preflight& preflight, const Scene& scene) {
     using Level = PreflightCheck::Level;
     const auto sentences = warnings(preflight, scene);
     for (const std::string& sentence : sentences) page.checks.push_back(check_of(sentence));
     if (sentences.empty()) page.checks.push_back({Level::good, "Lightmap UVs", "nothing to mend"});
 
-    const double texels = static_cast<double>(preflight.width * preflight.height * preflight.pages);
+    const double texels = static_cast<double>(preflight.width * preflight.height * preflight.pages.size());
     page.checks.push_back(
         {Level::note, "Charts",
-         fmt::format("{} on {} page{}, which they cover to {:.1f} %", preflight.charts, preflight.pages,
-                     preflight.pages == 1 ? "" : "s", 100 * static_cast<double>(preflight.texels) / texels)});
+         fmt::format("{} on {} page{}, which they cover to {:.1f} %", preflight.charts, preflight.pages.size(),
+                     preflight.pages.size() == 1 ? "" : "s", 100 * static_cast<double>(preflight.texels) / texels)});
     const BakeMemory& memory = preflight.memory;
     page.checks.push_back(
         {Level::note, "Memory",
@@ -55,10 +55,10 @@ void add_preflight(BakePage& page, const Preflight& preflight, const Scene& scen
                                   preflight.density.share[i]);
 
     constexpr std::size_t k_most_side = 768;
-    for (std::size_t p = 0; p < preflight.pages; ++p)
+    for (std::size_t p = 0; p < preflight.pages.size(); ++p)
         page.preflight_pictures.push_back(
             {fmt::format("Page {}: charts, orange where too close, red where they overlap", p),
-             as_linear_values(preflight_picture(preflight, atlas, map, p, k_most_side))});
+             as_linear_values(preflight_picture(preflight, p, k_most_side))});
 }
 
 }  // namespace lobelia

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "bake/probes/probes.h"
 #include "lobelia/codec.h"
 #include "lobelia/image.h"
+#include "lobelia/lightmap.h"
 
 namespace lobelia {
 

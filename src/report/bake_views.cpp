@@ -6,17 +6,19 @@
 
 namespace lobelia {
 
-BakePage bake_page_of(const Scene& scene, const Baker& baker, const Bake& bake) {
-    BakePage page;
+Result<BakeReport> bake_page_of(const Scene& scene, const Bake& bake) {
+    auto light = light_of(bake);
+    if (!light) return light.error();
+    BakeReport page;
     page.title = scene.name;
     page.settings = bake_settings(bake.manifest.options, bake.pages.size());
-    page.statistics = baker.statistics();
-    page.light = {bake.pages, baker.atlas().placements(), bake.layout(), baker.codec(), baker.in_tangent_frame()};
-    const Frame frame = baker.in_tangent_frame() ? Frame::tangent : Frame::world;
-    for (std::size_t p = 0; baker.codec() != nullptr && p < bake.pages.size(); ++p)
-        page.codec_irradiance.push_back(
-            page_irradiance(bake.pages[p], bake.layout(), bake.normals[p], frame, baker.codec()->evaluator()));
-    page.object_of_chart = objects_of_charts(baker.atlas());
+    page.statistics = bake.manifest.statistics;
+    page.warnings = bake.manifest.warnings;
+    page.light = *std::move(light);
+    for (std::size_t p = 0; page.light.codec && p < bake.pages.size(); ++p)
+        page.codec_irradiance.push_back(page_irradiance(bake.pages[p], bake.channels(), bake.normals[p],
+                                                        page.light.frame, page.light.codec->evaluator()));
+    if (bake.preflight) page.object_of_chart = bake.preflight->object_of_chart;
     page.objects = object_figures(scene, page.light, page.object_of_chart, page.codec_irradiance);
     if (bake.probes)
         if (const auto codec = make_codec(bake.probes->codec)) page.probes = view_probes(*bake.probes, *codec);
@@ -48,6 +50,21 @@ std::optional<std::vector<BakeView>> render_views(const Scene& scene, const Bake
         views.push_back({camera.name, *std::move(baked), *std::move(truth), options.samples});
     }
     return views;
+}
+
+Result<std::string> bake_report(const Scene& scene, const Bake& bake, const ReportOptions& options,
+                                const RenderOptions& pictures) {
+    auto page = bake_page_of(scene, bake);
+    if (!page) return page.error();
+    if (bake.preflight) add_preflight(*page, *bake.preflight, scene);
+    RenderOptions of_pictures = pictures;
+    of_pictures.width = options.width;
+    of_pictures.height = options.height;
+    of_pictures.samples = options.samples;
+    auto views = render_views(scene, page->light, bake.manifest.options.paths, of_pictures);
+    if (!views) return Error{"stopped"};
+    page->views = std::move(*views);
+    return bake_html(*page);
 }
 
 }  // namespace lobelia

@@ -11,6 +11,7 @@
 
 #include "lobelia/result.h"
 #include "lobelia/scene.h"
+#include "lobelia/scene_source.h"
 
 namespace lobelia {
 
@@ -25,12 +26,6 @@ struct GltfReadOptions {
     std::size_t most_triangles = std::size_t{1} << 27;  ///< of all meshes, and of all objects; three times the vertices
     std::size_t most_objects = std::size_t{1} << 22;
     std::size_t most_texels = std::size_t{1} << 28;  ///< of all textures
-};
-
-/// A scene that check_scene passes, with at least one triangle, and what its reader had to say about the file.
-struct LoadedScene {
-    Scene scene;
-    std::vector<std::string> warnings;
 };
 
 /// Reads a .gltf or .glb file; the content, not the name, decides which. Buffers and images that it refers to must lie

@@ -6,20 +6,10 @@
 #include <memory>
 #include <span>
 
+#include "lobelia/render.h"
 #include "scene/world.h"
 
 namespace lobelia {
-
-enum class Switch { off, on };
-
-struct PathOptions {
-    int bounces = 8;                        ///< surfaces that light may meet between its source and the ray's origin
-    std::uint32_t seed = 1;                 ///< of every sequence
-    Switch next_event = Switch::on;         ///< aim at light sources; off: find them by chance (those with a size only)
-    Switch environment_table = Switch::on;  ///< aim at the environment by its brightness; off: uniformly
-    Switch roulette = Switch::on;           ///< end weak paths by chance
-    Switch sun_size = Switch::on;  ///< off: directional lights are parallel beams whatever their angular radius
-};
 
 /// Where a path begins, and which it is: `key` names the receiver (texel, probe or pixel), `sample` the point of its
 /// Owen-scrambled Sobol sequences (Burley 2020). The same key, sample and seed give the same path.

@@ -5,6 +5,7 @@
 
 #include "bake/solve/page_irradiance.h"
 #include "bake/write/irradiance_files.h"
+#include "bake/write/manifest.h"
 #include "bake_files.h"
 #include "folders.h"
 #include "io/read_exr_channels.h"
@@ -16,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 using test::some_bake;
 
-std::vector<Rgb> coefficients_at(const Page& page, std::size_t coefficients, std::size_t texel) {
+std::vector<Rgb> coefficients_at(const LightmapPage& page, std::size_t coefficients, std::size_t texel) {
     std::vector<Rgb> c;
     for (std::size_t i = 0; i < coefficients; ++i)
         c.push_back({page.planes[3 * i][texel], page.planes[3 * i + 1][texel], page.planes[3 * i + 2][texel]});
@@ -40,9 +41,9 @@ class Squared final : public Evaluator {
 };
 
 void expect_read_texel_by_texel(const Bake& bake, const Evaluator& evaluator) {
-    const Page& page = bake.pages[0];
+    const LightmapPage& page = bake.pages[0];
     const Frame frame = bake.manifest.options.frame;
-    const auto read = page_irradiance(page, bake.layout(), bake.normals[0], frame, evaluator);
+    const auto read = page_irradiance(page, bake.channels(), bake.normals[0], frame, evaluator);
     ASSERT_EQ(read.size(), page.size());
     for (std::size_t i = 0; i < page.size(); ++i) {
         const Vec3 n = bake.normals[0][i];
@@ -83,7 +84,8 @@ TEST(IrradianceFiles, HoldWhatIsReadAndTheValidity) {
     for (std::size_t p = 0; p < 2; ++p) {
         const auto file = read_exr_channels((*files)[p], {.wanted = {"R", "G", "B", "validity"}});
         ASSERT_TRUE(file) << file.error().message;
-        const auto expected = page_irradiance(bake.pages[p], bake.layout(), bake.normals[p], Frame::world, *evaluator);
+        const auto expected =
+            page_irradiance(bake.pages[p], bake.channels(), bake.normals[p], Frame::world, *evaluator);
         for (std::size_t i = 0; i < expected.size(); ++i) {
             EXPECT_EQ((Rgb{file->planes[0][i], file->planes[1][i], file->planes[2][i]}), expected[i]);
             EXPECT_EQ(file->planes[3][i], i % 5 == 0 ? 0 : bake.pages[p].validity[i]);
@@ -123,7 +125,7 @@ CoefficientTraits traits_of(const std::string& codec) { return coefficient_trait
 Bake some_bake_within(const std::string& codec) {
     Bake bake = some_bake(codec);
     const CoefficientTraits traits = traits_of(codec);
-    for (Page& page : bake.pages)
+    for (LightmapPage& page : bake.pages)
         for (std::size_t p = 0; p < 3 * traits.count; ++p)
             for (std::size_t i = 0; i < page.size(); ++i) {
                 float& v = page.planes[p][i];
@@ -135,11 +137,11 @@ Bake some_bake_within(const std::string& codec) {
 }
 
 /// Reads the files of one storage back, as the manifest says.
-Page page_in(const fs::path& folder, const BakedPage& baked, const Storage& storage, const Page& like,
-             std::size_t coefficients) {
+LightmapPage page_in(const fs::path& folder, const PageEntry& baked, const Storage& storage, const LightmapPage& like,
+                     std::size_t coefficients) {
     TextureLayout layout{coefficients, {}};
     std::vector<PackedTexture> packed;
-    for (const BakedTexture& texture : baked.textures) {
+    for (const TextureEntry& texture : baked.textures) {
         if (texture.storage != storage.name) continue;
         EXPECT_EQ(texture.file, "page-0." + texture.storage + "." + texture.layout.name + ".ktx2");
         layout.textures.push_back(texture.layout);
@@ -147,7 +149,7 @@ Page page_in(const fs::path& folder, const BakedPage& baked, const Storage& stor
         packed.back().scale = texture.scale;
     }
     EXPECT_FALSE(packed.empty());
-    Page back = like;
+    LightmapPage back = like;
     unpack(layout, packed, {back.width, back.height, std::span(back.planes), coefficients});
     return back;
 }
@@ -167,12 +169,12 @@ TEST(BakeTextures, FilesHoldThePageWithinEachStoragesBound) {
         ASSERT_TRUE(write_bake(folder.path(), bake, options));
         const auto manifest = read_manifest(folder.path());
         ASSERT_TRUE(manifest) << manifest.error().message;
-        const Page& page = bake.pages[0];
+        const LightmapPage& page = bake.pages[0];
         for (const std::string& name : *options.storages) {
             SCOPED_TRACE(std::string(codec) + " " + name);
             const Storage& storage = *find_storage(name).value();
-            const Page back = page_in(folder.path(), manifest->pages[0], storage, page, traits.count);
-            Page allowed = page;
+            const LightmapPage back = page_in(folder.path(), manifest->pages[0], storage, page, traits.count);
+            LightmapPage allowed = page;
             allowed_error(storage, traits, {page.width, page.height, std::span(page.planes), traits.count},
                           {page.width, page.height, std::span(allowed.planes), traits.count});
             for (std::size_t p = 0; p < 3 * traits.count; ++p)
@@ -191,7 +193,7 @@ TEST(BakeTextures, HalvesRatiosAndValidityWhereNothingIsAskedFor) {
     const auto manifest = read_manifest(folder.path());
     ASSERT_TRUE(manifest) << manifest.error().message;
     std::vector<std::string> files;
-    for (const BakedTexture& texture : manifest->pages[1].textures) files.push_back(texture.file);
+    for (const TextureEntry& texture : manifest->pages[1].textures) files.push_back(texture.file);
     EXPECT_EQ(files,
               (std::vector<std::string>{"page-1.float16.v0.ktx2", "page-1.float16.v1.ktx2", "page-1.float16.v2.ktx2",
                                         "page-1.ratio8.c0.ktx2", "page-1.ratio8.ratio0.ktx2",

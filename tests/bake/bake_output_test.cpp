@@ -1,6 +1,7 @@
 // What a bake leaves behind reads back as it was, and nothing else is taken for it.
 #include <gtest/gtest.h>
 
+#include "bake/write/manifest.h"
 #include "bake/write/page_files.h"
 #include "bake/write/probe_files.h"
 #include "bake_files.h"
@@ -81,7 +82,7 @@ TEST_F(BakeOutput, RoundTripOfPages) {
 
 TEST_F(BakeOutput, HalfPagesKeepElevenBits) {
     Bake bake = some_bake("sh1/moments/convolution");
-    bake.manifest.precision = ExrOptions::Precision::half;
+    bake.manifest.precision = Precision::half;
     bake.pages[0].chart[3] = 1u << 24;
     ASSERT_TRUE(write_bake(path(), bake));
     const auto read = read_bake(path());

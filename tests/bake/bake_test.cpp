@@ -1,5 +1,5 @@
 // The bake as a whole: the same bits however it is cut up, and light that is right.
-#include "bake/baker.h"
+#include "lobelia/bake.h"
 
 #include <gtest/gtest.h>
 
@@ -7,10 +7,8 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "bake/gather/sites.h"
 #include "bake/session/checkpoint.h"
-#include "bake/session/merge.h"
-#include "bake/session/plan.h"
+#include "bake/session/setup.h"
 #include "scene/embedded.h"
 
 namespace lobelia {
@@ -42,32 +40,43 @@ const Scene& closed_box() {
     return scene;
 }
 
-BakeOptions small_options() {
-    BakeOptions options;
-    options.atlas.width = options.atlas.height = 64;
-    options.samples = 64;
-    options.paths.bounces = 4;
-    options.threads = 2;
-    return options;
+/// A small job without finishing steps: its pages are as they were solved.
+BakeJob small_job() {
+    BakeJob job;
+    job.bake.atlas.width = job.bake.atlas.height = 64;
+    job.bake.samples = 64;
+    job.bake.paths.bounces = 4;
+    job.bake.threads = 2;
+    job.finish = {Switch::off, Switch::off, Switch::off};
+    job.storages.emplace();
+    job.precision = Precision::full;
+    return job;
 }
 
-const std::atomic<bool> k_never = false;
+using Start = BakeSession::Start;
 
-std::unique_ptr<Baker> make(const Scene& scene, const BakeOptions& options) {
-    auto bake = Baker::make(scene, options);
-    EXPECT_TRUE(bake) << bake.error().message;
-    return std::move(*bake);
+BakeSession session_in(const fs::path& folder, Start start = Start::fresh) {
+    BakeSession session;
+    session.folder = folder;
+    session.start = start;
+    return session;
 }
 
-std::vector<Page> baked(const Scene& scene, const BakeOptions& options, Baker::Start start = Baker::Start::fresh) {
-    const auto bake = make(scene, options);
-    const auto status = bake->run(start, k_never);
-    EXPECT_TRUE(status) << status.error().message;
-    return std::move(bake->pages());
+Bake baked(const Scene& scene, const BakeJob& job, BakeSession session = {}) {
+    auto result = bake(scene, job, session);
+    EXPECT_TRUE(result) << result.error().message;
+    return result ? *std::move(result) : Bake();
 }
 
-void expect_same_bits(const std::vector<Page>& a, const std::vector<Page>& b) {
+std::string error_of(const Scene& scene, const BakeJob& job, BakeSession session = {}) {
+    const auto result = bake(scene, job, session);
+    return result ? std::string() : result.error().message;
+}
+
+void expect_same_bits(const Bake& first, const Bake& second) {
+    const auto &a = first.pages, &b = second.pages;
     ASSERT_EQ(a.size(), b.size());
+    ASSERT_FALSE(a.empty());
     for (std::size_t p = 0; p < a.size(); ++p) {
         EXPECT_EQ(a[p].chart, b[p].chart);
         EXPECT_EQ(a[p].validity, b[p].validity);
@@ -76,83 +85,104 @@ void expect_same_bits(const std::vector<Page>& a, const std::vector<Page>& b) {
 }
 
 TEST(Bake, IsTheSameAtAnyNumberOfThreads) {
-    BakeOptions options = small_options();
-    const auto two = baked(closed_box(), options);
-    options.threads = 1;
-    expect_same_bits(two, baked(closed_box(), options));
+    BakeJob job = small_job();
+    const Bake two = baked(closed_box(), job);
+    job.bake.threads = 1;
+    expect_same_bits(two, baked(closed_box(), job));
 }
 
 TEST(Bake, IsTheSameInRegionsThatFitTheMemory) {
-    BakeOptions options = small_options();
-    const auto whole = baked(closed_box(), options);
-    // The least memory that will do makes the most regions.
+    BakeJob job = small_job();
+    const Bake whole = baked(closed_box(), job);
+    // The least memory that is enough makes the most regions.
     std::size_t too_little = 0, enough = std::size_t{1} << 30;
     while (enough - too_little > 1024) {
-        options.memory = (too_little + enough) / 2;
-        (Baker::make(closed_box(), options) ? enough : too_little) = options.memory;
+        job.bake.memory = (too_little + enough) / 2;
+        (BakeSetup::make(closed_box(), job.bake) ? enough : too_little) = job.bake.memory;
     }
-    options.memory = enough;
-    const auto bake = make(closed_box(), options);
-    ASSERT_GE(bake->plan().regions.size(), 3u);
-    ASSERT_TRUE(bake->run(Baker::Start::fresh, k_never));
-    expect_same_bits(whole, bake->pages());
+    job.bake.memory = enough;
+    const auto setup = BakeSetup::make(closed_box(), job.bake);
+    ASSERT_TRUE(setup);
+    ASSERT_GE((*setup)->plan.regions.size(), 3u);
+    expect_same_bits(whole, baked(closed_box(), job));
 }
 
 TEST(Bake, ResumeEqualsUninterrupted) {
     const Folder folder;
-    BakeOptions options = small_options();
-    const auto whole = baked(closed_box(), options);
-    options.checkpoint = folder / "a";
+    const BakeJob job = small_job();
+    const Bake whole = baked(closed_box(), job);
     // Stop in the middle of a pass, again and again.
-    std::atomic<bool> stop = false;
     for (int stops = 0; stops < 3; ++stops) {
-        const auto bake = make(closed_box(), options);
-        stop = false;
-        const auto status =
-            bake->run(stops == 0 ? Baker::Start::fresh : Baker::Start::resume, stop,
-                      [&](const BakeProgress& progress) { stop = progress.done > 0.3 * (stops + 1) - 0.05; });
-        EXPECT_FALSE(status);
+        std::atomic<bool> stop = false;
+        BakeSession session = session_in(folder / "a", stops == 0 ? Start::fresh : Start::resume);
+        session.stop = &stop;
+        session.progress = [&](const BakeProgress& progress) {
+            if (progress.done > 0.3 * (stops + 1) - 0.05) stop = true;
+        };
+        EXPECT_FALSE(bake(closed_box(), job, session));
     }
-    expect_same_bits(whole, baked(closed_box(), options, Baker::Start::resume));
+    expect_same_bits(whole, baked(closed_box(), job, session_in(folder / "a", Start::resume)));
     // Resuming a finished bake does nothing.
-    expect_same_bits(whole, baked(closed_box(), options, Baker::Start::resume));
+    expect_same_bits(whole, baked(closed_box(), job, session_in(folder / "a", Start::resume)));
 }
 
 TEST(Bake, MoreSamplesEqualAsManyFromTheStart) {
     const Folder folder;
-    BakeOptions options = small_options();
-    const auto whole = baked(closed_box(), options);
-    options.checkpoint = folder / "a";
-    options.samples = 16;
-    (void)baked(closed_box(), options);
-    options.samples = 64;
-    expect_same_bits(whole, baked(closed_box(), options, Baker::Start::resume));
+    BakeJob job = small_job();
+    const Bake whole = baked(closed_box(), job);
+    job.bake.samples = 16;
+    (void)baked(closed_box(), job, session_in(folder / "a"));
+    job.bake.samples = 64;
+    expect_same_bits(whole, baked(closed_box(), job, session_in(folder / "a", Start::resume)));
+}
+
+TEST(Bake, KeepsItsJobAndItsFolder) {
+    const Folder folder;
+    BakeJob job = small_job();
+    job.scene.path = "a scene";
+    job.scene.environment = "sky";
+    job.probes.emplace().spacing = 0.5;
+    job.probes->box = {Vec3{0.25f, 0.5f, -0.5f}, Vec3{0.5f, 0.75f, 0}};
+    const Bake whole = baked(closed_box(), job, session_in(folder / "a"));
+    const auto read = read_job(folder / "a");
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(read->scene.path, "a scene");
+    EXPECT_EQ(read->scene.environment, "sky");
+    EXPECT_EQ(read->probes->box, job.probes->box);
+    EXPECT_EQ(read->finish.seams, Switch::off);
+    EXPECT_EQ(read->storages, job.storages);
+    EXPECT_EQ(read->bake.samples, 64u);
+    const auto bake = read_bake(folder / "a");
+    ASSERT_TRUE(bake) << bake.error().message;
+    expect_same_bits(whole, *bake);
+    EXPECT_EQ(bake->probes->coefficients, whole.probes->coefficients);
+    EXPECT_EQ(bake->manifest.pages.size(), whole.manifest.pages.size());
 }
 
 /// Bakes all shards and merges them.
-std::vector<Page> sharded(BakeOptions options, Shard::By by, std::uint32_t count) {
+Bake sharded(BakeJob job, Shard::By by, std::uint32_t count) {
     const Folder folder;
     std::vector<fs::path> parts;
     for (std::uint32_t i = 0; i < count; ++i) {
-        options.shard = {by, i, count};
-        options.checkpoint = folder / std::to_string(i);
-        parts.push_back(options.checkpoint);
-        (void)baked(closed_box(), options);
+        job.bake.shard = {by, i, count};
+        parts.push_back(folder / std::to_string(i));
+        EXPECT_TRUE(baked(closed_box(), job, session_in(parts.back())).pages.empty());
     }
-    options.shard = {};
-    options.checkpoint = folder / "whole";
-    const auto bake = make(closed_box(), options);
-    const auto merged = merge_shards(*bake, parts);
+    job.bake.shard = {};
+    BakeSession session = session_in(folder / "whole");
+    auto merged = merge_bake(closed_box(), job, parts, session);
     EXPECT_TRUE(merged) << merged.error().message;
-    return baked(closed_box(), options, Baker::Start::resume);
+    return merged ? *std::move(merged) : Bake();
 }
 
 TEST(Bake, ShardsOfTilesEqualTheWhole) {
-    expect_same_bits(baked(closed_box(), small_options()), sharded(small_options(), Shard::By::tiles, 4));
+    expect_same_bits(baked(closed_box(), small_job()), sharded(small_job(), Shard::By::tiles, 4));
 }
 
 TEST(Bake, ShardsOfSamplesEqualTheWholeToRounding) {
-    const auto whole = baked(closed_box(), small_options()), merged = sharded(small_options(), Shard::By::samples, 4);
+    const auto whole = baked(closed_box(), small_job()).pages,
+               merged = sharded(small_job(), Shard::By::samples, 4).pages;
+    ASSERT_EQ(whole.size(), merged.size());
     for (std::size_t p = 0; p < whole.size(); ++p)
         for (std::size_t k = 0; k + 1 < whole[p].planes.size(); ++k) {
             float largest = 0, off = 0;
@@ -166,64 +196,83 @@ TEST(Bake, ShardsOfSamplesEqualTheWholeToRounding) {
 
 TEST(Bake, ShardsThatDoNotMakeAWholeAreRefused) {
     const Folder folder;
-    BakeOptions options = small_options();
-    options.samples = 16;
+    BakeJob job = small_job();
+    job.bake.samples = 16;
     std::vector<fs::path> parts;
     for (std::uint32_t i = 0; i < 2; ++i) {
-        options.shard = {Shard::By::tiles, i, 2};
-        options.checkpoint = folder / std::to_string(i);
-        parts.push_back(options.checkpoint);
-        (void)baked(closed_box(), options);
+        job.bake.shard = {Shard::By::tiles, i, 2};
+        parts.push_back(folder / std::to_string(i));
+        (void)baked(closed_box(), job, session_in(parts.back()));
     }
-    options.shard = {};
-    options.checkpoint = folder / "whole";
-    const auto bake = make(closed_box(), options);
+    job.bake.shard = {};
+    const fs::path whole = folder / "whole";
     const std::vector<fs::path> missing = {parts[0]}, twice = {parts[0], parts[1], parts[1]}, empty = {folder / "none"};
-    EXPECT_FALSE(merge_shards(*bake, missing));
-    EXPECT_FALSE(merge_shards(*bake, twice));
-    EXPECT_FALSE(merge_shards(*bake, empty));
-    EXPECT_TRUE(fs::is_empty(options.checkpoint));
+    const auto merges = [&](std::span<const fs::path> shards) {
+        BakeSession session = session_in(whole);
+        return static_cast<bool>(merge_bake(closed_box(), job, shards, session));
+    };
+    EXPECT_FALSE(merges(missing));
+    EXPECT_FALSE(merges(twice));
+    EXPECT_FALSE(merges(empty));
+    EXPECT_TRUE(fs::is_empty(whole));
     // And of another bake.
-    options.paths.seed = 5;
-    EXPECT_FALSE(merge_shards(*make(closed_box(), options), parts));
+    job.bake.paths.seed = 5;
+    EXPECT_FALSE(merges(parts));
 }
 
 TEST(Bake, OneObjectIsOneByItsNameAndHasUVs) {
     Scene scene = closed_box();
-    BakeOptions options = small_options();
+    BakeJob job = small_job();
+    job.bake.samples = 16;
     const auto error_for = [&](const std::string& name) {
-        options.only_object = name;
-        const auto baker = Baker::make(scene, options);
-        return baker ? std::string() : baker.error().message;
+        job.bake.only_object = name;
+        return error_of(scene, job);
     };
     EXPECT_EQ(error_for("ceiling"), "");
     EXPECT_NE(error_for("cieling").find("did you mean ceiling?"), std::string::npos);
     scene.objects.push_back(scene.objects[1]);
     EXPECT_NE(error_for(scene.objects[1].name).find("2 objects are called"), std::string::npos);
+    EXPECT_EQ(error_for("#1"), "");
+    EXPECT_NE(error_for("#99").find("no object"), std::string::npos);
     scene.objects[2].name = "bare";
     scene.meshes[scene.objects[2].mesh].lightmap_uv.clear();
     EXPECT_NE(error_for("bare").find("has no lightmap UVs"), std::string::npos);
 }
 
+TEST(Bake, AnObjectBakedAgainInTheSameSceneIsTheSame) {
+    const BakeJob job = small_job();
+    const Bake whole = baked(closed_box(), job);
+    Bake damaged = whole;
+    const std::vector<std::uint32_t>& object_of_chart = whole.preflight->object_of_chart;
+    constexpr std::uint32_t k_object = 1;
+    for (LightmapPage& page : damaged.pages)
+        for (std::size_t i = 0; i < page.size(); ++i)
+            if (page.chart[i] != 0 && object_of_chart[page.chart[i] - 1] == k_object)
+                for (auto& plane : page.planes) plane[i] = -1;
+    BakeSession session;
+    const auto again = rebake_object(closed_box(), job, "#1", damaged, session);
+    ASSERT_TRUE(again) << again.error().message;
+    expect_same_bits(whole, *again);
+}
+
 TEST(Bake, RefusesCheckpointsThatAreNotItsOwn) {
     const Folder folder;
-    BakeOptions options = small_options();
-    options.samples = 16;
-    options.checkpoint = folder / "a";
-    (void)baked(closed_box(), options);
-    const fs::path file = region_file(options.checkpoint, 0);
-    const auto run = [&](const Scene& scene, const BakeOptions& with, Baker::Start start) {
-        const auto status = make(scene, with)->run(start, k_never);
-        return status ? std::string() : status.error().message;
+    BakeJob job = small_job();
+    job.bake.samples = 16;
+    const fs::path out = folder / "a";
+    (void)baked(closed_box(), job, session_in(out));
+    const fs::path file = region_file(checkpoint_folder(out), 0);
+    const auto run = [&](const Scene& scene, const BakeJob& with, Start start) {
+        return error_of(scene, with, session_in(out, start));
     };
     // Not asked to resume; of another scene; with other options.
-    EXPECT_NE(run(closed_box(), options, Baker::Start::fresh).find("--resume"), std::string::npos);
-    EXPECT_NE(run(cornell_scene(), options, Baker::Start::resume).find("another scene"), std::string::npos);
-    BakeOptions other = options;
-    other.paths.bounces = 2;
-    EXPECT_NE(run(closed_box(), other, Baker::Start::resume).find("other options"), std::string::npos);
+    EXPECT_NE(run(closed_box(), job, Start::fresh).find("--resume"), std::string::npos);
+    EXPECT_NE(run(cornell_scene(), job, Start::resume).find("another scene"), std::string::npos);
+    BakeJob other = job;
+    other.bake.paths.bounces = 2;
+    EXPECT_NE(run(closed_box(), other, Start::resume).find("other options"), std::string::npos);
 
-    // Cut off anywhere, or with any byte changed.
+    // Truncated anywhere, or with any byte changed.
     std::string bytes;
     {
         std::ifstream in(file, std::ios::binary);
@@ -233,17 +282,16 @@ TEST(Bake, RefusesCheckpointsThatAreNotItsOwn) {
     for (const std::size_t size :
          {std::size_t{0}, std::size_t{7}, std::size_t{100}, std::size_t{256}, bytes.size() - 1}) {
         write(bytes.substr(0, size));
-        EXPECT_NE(run(closed_box(), options, Baker::Start::resume).find("region-0000.state"), std::string::npos)
-            << size;
+        EXPECT_NE(run(closed_box(), job, Start::resume).find("region-0000.state"), std::string::npos) << size;
     }
     for (const std::size_t place : {0u, 9u, 17u, 33u, 49u, 300u, 5000u}) {
         std::string damaged = bytes;
         damaged[place] = static_cast<char>(damaged[place] ^ 0x10);
         write(damaged);
-        EXPECT_NE(run(closed_box(), options, Baker::Start::resume), "") << place;
+        EXPECT_NE(run(closed_box(), job, Start::resume), "") << place;
     }
     write(bytes);
-    EXPECT_EQ(run(closed_box(), options, Baker::Start::resume), "");
+    EXPECT_EQ(run(closed_box(), job, Start::resume), "");
 }
 
 /// The closed box with every surface of the same reflectance and emission.
@@ -258,19 +306,19 @@ Scene furnace(float albedo, float emission) {
 }
 
 TEST(Bake, WhiteFurnaceAtEveryTexel) {
-    BakeOptions options = small_options();
-    options.samples = 256;
-    options.paths.bounces = 64;
+    BakeJob job = small_job();
+    job.bake.samples = 256;
+    job.bake.paths.bounces = 64;
     constexpr float albedo = 0.5f, emission = 1;
-    const auto pages = baked(furnace(albedo, emission), options);
+    const Bake whole = baked(furnace(albedo, emission), job);
     const double expected = k_pi * emission / (1 - albedo);
-    const PageLayout layout = make(furnace(albedo, emission), options)->layout();
-    const Page& page = pages.front();
+    const PageChannels channels = whole.channels();
+    const LightmapPage& page = whole.pages.front();
     std::size_t texels = 0, beyond = 0;
     double sum = 0;
     for (std::size_t i = 0; i < page.size(); ++i) {
         if (page.chart[i] == 0 || page.validity[i] < 1) continue;
-        const double e = page.planes[layout.irradiance(1)][i], error = page.planes[layout.error()][i];
+        const double e = page.planes[channels.irradiance(1)][i], error = page.planes[channels.error()][i];
         ++texels;
         sum += e;
         if (std::abs(e - expected) > 3 * error + 1e-3 * expected) ++beyond;
@@ -282,25 +330,24 @@ TEST(Bake, WhiteFurnaceAtEveryTexel) {
 }
 
 TEST(Bake, AdaptiveStopsWhereTheErrorIsReached) {
-    BakeOptions options = small_options();
-    options.samples = 512;
-    const auto all = make(closed_box(), options);
-    ASSERT_TRUE(all->run(Baker::Start::fresh, k_never));
-    options.target_error = 0.05;
-    const auto some = make(closed_box(), options);
-    ASSERT_TRUE(some->run(Baker::Start::fresh, k_never));
-    EXPECT_LT(some->statistics().rays, all->statistics().rays);
-    EXPECT_LT(some->statistics().mean_error, 0.06);
+    BakeJob job = small_job();
+    job.bake.samples = 512;
+    const BakeStatistics all = baked(closed_box(), job).manifest.statistics;
+    job.bake.target_error = 0.05;
+    const BakeStatistics some = baked(closed_box(), job).manifest.statistics;
+    EXPECT_LT(some.rays, all.rays);
+    EXPECT_LT(some.mean_error, 0.06);
 }
 
 TEST(Bake, StateKeepsToItsSize) {
     // 3 floats for each coefficient, a quarter more, and 16 bytes.
     for (const char* codec : {"sh1/moments/convolution", "sg12h/moments/exact", "sg12h/matrix-gain/exact"}) {
-        BakeOptions options = small_options();
-        options.codec = codec;
-        const auto bake = make(closed_box(), options);
-        const std::size_t floats = 3 * bake->codec()->basis().size();
-        EXPECT_LE(static_cast<double>(bake->sites().bytes()), 1.25 * 4 * static_cast<double>(floats) + 16) << codec;
+        BakeJob job = small_job();
+        job.bake.codec = codec;
+        const auto setup = BakeSetup::make(closed_box(), job.bake);
+        ASSERT_TRUE(setup);
+        const std::size_t floats = 3 * (*setup)->encoding.codec()->basis().size();
+        EXPECT_LE(static_cast<double>((*setup)->layout.bytes()), 1.25 * 4 * static_cast<double>(floats) + 16) << codec;
     }
 }
 

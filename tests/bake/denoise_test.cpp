@@ -16,9 +16,9 @@ using test::with_uv;
 
 /// A bake of four coefficients on one page, its guides, and what it would be without noise.
 struct Noisy {
-    PageLayout layout{4};
-    std::vector<Page> pages;
-    Page truth;
+    PageChannels layout{4};
+    std::vector<LightmapPage> pages;
+    LightmapPage truth;
     Guides guides;
     std::vector<double> integrals{std::sqrt(4 * k_pi), 0, 0, 0};
 };
@@ -28,7 +28,7 @@ struct Noisy {
 template <class Irradiance>
 Noisy noisy_bake(std::size_t side, const Irradiance& irradiance, double samples, std::uint32_t seed) {
     Noisy bake;
-    bake.truth = Page(side, side, bake.layout.channels());
+    bake.truth = LightmapPage(side, side, bake.layout.count());
     bake.guides.position.assign(1, std::vector<Vec3>(side * side));
     bake.guides.normal.assign(1, std::vector<Vec3>(side * side, Vec3{0, 0, 1}));
     std::fill(bake.truth.chart.begin(), bake.truth.chart.end(), 1u);
@@ -66,7 +66,7 @@ void denoise(Noisy& bake, const DenoiseOptions& options = {}) {
     denoise(bake.pages, bake.layout, bake.guides, bake.integrals, 4 * k_pi, options);
 }
 
-double rms(const Page& a, const Page& b, std::size_t first, std::size_t last) {
+double rms(const LightmapPage& a, const LightmapPage& b, std::size_t first, std::size_t last) {
     double sum = 0;
     for (std::size_t c = first; c < last; ++c)
         for (std::size_t i = 0; i < a.size(); ++i)
@@ -126,7 +126,7 @@ TEST(Denoise, LeavesWhatHasNoNoise) {
 TEST(Denoise, NeverReadsAnotherChart) {
     // Two charts meet in a staircase. What lies on one does not change a bit of the other, nor does what is invalid.
     Noisy bake = noisy_bake(64, smooth_light, 64, 9);
-    Page& page = bake.pages[0];
+    LightmapPage& page = bake.pages[0];
     for (std::size_t i = 0; i < page.size(); ++i) {
         page.chart[i] = i % 64 > 20 + i / 64 / 3 ? 2 : 1;
         if (i % 97 == 0) page.validity[i] = 0.1f;
@@ -136,7 +136,7 @@ TEST(Denoise, NeverReadsAnotherChart) {
     for (std::size_t i = 0; i < page.size(); ++i)
         if (page.chart[i] == 2 || page.validity[i] < 0.5f)
             for (auto& plane : other.pages[0].planes) plane[i] = static_cast<float>(generator() % 1000);
-    const Page untouched = other.pages[0];
+    const LightmapPage untouched = other.pages[0];
     denoise(bake);
     denoise(other);
     for (std::size_t c = 0; c < page.planes.size(); ++c)

@@ -12,13 +12,13 @@ namespace {
 TEST(FitPages, EveryTexelIsFittedAndNothingElseChanges) {
     const auto basis = make_basis("zh3").value();
     const std::size_t n = basis->fitted()->accumulated()->size();
-    const PageLayout source{n}, target{basis->size()};
-    Page page(7, 5, source.channels());
+    const PageChannels source{n}, target{basis->size()};
+    LightmapPage page(7, 5, source.count());
     std::mt19937 generator(3);
     for (auto& plane : page.planes)
         for (float& v : plane) v = static_cast<float>(generator() % 1000) / 500 - 0.5f;
     for (std::size_t i = 0; i < page.size(); ++i) page.chart[i] = static_cast<std::uint32_t>(generator() % 3);
-    const std::vector<Page> pages{page};
+    const std::vector<LightmapPage> pages{page};
     const auto fitted = fit_pages(pages, *basis->fitted());
     ASSERT_EQ(fitted.size(), 1u);
     EXPECT_EQ(fitted[0].chart, page.chart);
@@ -37,8 +37,8 @@ TEST(FitPages, EveryTexelIsFittedAndNothingElseChanges) {
 }
 
 /// Charts 1 and 2 in random blots, some texels invalid, values that tell texels apart.
-Page blots(std::size_t width, std::size_t height, std::uint32_t seed) {
-    Page page(width, height, 2);
+LightmapPage blots(std::size_t width, std::size_t height, std::uint32_t seed) {
+    LightmapPage page(width, height, 2);
     std::mt19937 generator(seed);
     for (std::size_t i = 0; i < page.size(); ++i) {
         page.chart[i] = generator() % 8 == 0 ? 1 + generator() % 2 : 0;
@@ -49,7 +49,7 @@ Page blots(std::size_t width, std::size_t height, std::uint32_t seed) {
 }
 
 /// By looking at all texels for each.
-std::vector<float> dilated_plainly(const Page& page, std::size_t plane, const DilateOptions& options) {
+std::vector<float> dilated_plainly(const LightmapPage& page, std::size_t plane, const DilateOptions& options) {
     std::vector<float> result = page.planes[plane];
     const auto w = static_cast<long>(page.width), h = static_cast<long>(page.height);
     const auto usable = [&](std::size_t i) { return page.chart[i] != 0 && page.validity[i] >= options.least_validity; };
@@ -80,8 +80,8 @@ std::vector<float> dilated_plainly(const Page& page, std::size_t plane, const Di
 TEST(Dilate, EqualsTheSearchOfAllTexels) {
     for (const std::size_t radius : {0, 1, 2, 5}) {
         const DilateOptions options{.radius = radius};
-        std::vector<Page> pages{blots(33, 41, 1), blots(50, 7, 2)};
-        const std::vector<Page> before = pages;
+        std::vector<LightmapPage> pages{blots(33, 41, 1), blots(50, 7, 2)};
+        const std::vector<LightmapPage> before = pages;
         dilate(pages, options);
         for (std::size_t p = 0; p < 2; ++p) {
             EXPECT_EQ(pages[p].chart, before[p].chart);
@@ -96,9 +96,9 @@ TEST(Dilate, EqualsTheSearchOfAllTexels) {
 }
 
 TEST(Dilate, TwiceIsOnce) {
-    std::vector<Page> once{blots(40, 40, 3)};
+    std::vector<LightmapPage> once{blots(40, 40, 3)};
     dilate(once);
-    std::vector<Page> twice = once;
+    std::vector<LightmapPage> twice = once;
     dilate(twice);
     EXPECT_EQ(once[0].planes, twice[0].planes);
 }

@@ -1,5 +1,5 @@
 // Preflight finds what was put wrong on purpose, as much of it as there is, and nothing else.
-#include "bake/session/preflight.h"
+#include "bake/preflight/preflight.h"
 
 #include <map>
 #include <numeric>
@@ -48,7 +48,7 @@ TEST(Preflight, FindsNothingWhereAllIsWell) {
     EXPECT_TRUE(warnings(checked.found, checked.scene).empty()) << warnings(checked.found, checked.scene)[0];
     EXPECT_EQ(checked.found.texels, 1600u + 2500u);
     EXPECT_EQ(checked.found.charts, 2u);
-    EXPECT_EQ(checked.found.pages, 1u);
+    EXPECT_EQ(checked.found.pages.size(), 1u);
     EXPECT_NEAR(checked.found.density.least, 100, 1e-2);
     EXPECT_NEAR(checked.found.density.median, 100, 1e-2);
     EXPECT_NEAR(checked.found.density.most, 100, 1e-2);
@@ -68,7 +68,7 @@ TEST(Preflight, CountsOverlapsBetweenObjects) {
     EXPECT_EQ(checked.found.objects[0].overlapping_texels, 400u);
     EXPECT_EQ(checked.found.objects[2].overlapping_texels, 0u);
     EXPECT_TRUE(checked.warns_of("object 0 and object 1 overlap on 400 texels"));
-    const auto& marks = checked.found.marks[0];
+    const auto& marks = checked.found.pages[0].mark;
     EXPECT_EQ(std::count(marks.begin(), marks.end(), TexelMark::overlap), 400);
 }
 
@@ -113,7 +113,7 @@ TEST(Preflight, FindsUVsOutside) {
                           shared_page(32));
     EXPECT_EQ(checked.found.objects[0].outside_triangles, 2u);
     EXPECT_EQ(checked.found.objects[1].outside_triangles, 0u);
-    EXPECT_TRUE(checked.warns_of("out of [0, 1]"));
+    EXPECT_TRUE(checked.warns_of("outside [0, 1]"));
 }
 
 TEST(Preflight, FindsBadTriangles) {
@@ -138,7 +138,7 @@ TEST(Preflight, FindsBadTriangles) {
     EXPECT_EQ(checked.found.objects[0].non_manifold_edges, 1u);
     EXPECT_TRUE(checked.warns_of("1 degenerate triangle (1 of"));
     EXPECT_TRUE(checked.warns_of("1 triangle without area on the page (1 of"));
-    EXPECT_TRUE(checked.warns_of("1 edge of three triangles and more (1 of"));
+    EXPECT_TRUE(checked.warns_of("1 edge shared by three or more triangles (1 of"));
 }
 
 TEST(Preflight, NamesObjectsWithoutUVs) {
@@ -180,7 +180,7 @@ TEST(Preflight, WeighsDensityByArea) {
 
 TEST(Preflight, AddsUpMemoryAndTime) {
     const PreflightOptions options{
-        .padding = 2, .state_bytes = 100, .channels = 16, .samples = 64, .rate = TraceRate{1e6, 10}};
+        .padding = 2, .state_bytes = 100, .channels = 16, .samples = 64, .rate = RayRate{1e6, 10}};
     const Checked checked(scene_of({square_at(0, 0, 0.5f)}), shared_page(64), options);
     EXPECT_EQ(checked.found.memory.states, 32u * 32u * 100u);
     EXPECT_EQ(checked.found.memory.pages, 64u * 64u * (16u * 4u + 8u));
@@ -196,7 +196,7 @@ TEST(Preflight, AddsUpMemoryAndTime) {
 TEST(Preflight, MeasuresARate) {
     const Checked checked(scene_of({square_at(0, 0, 0.5f)}), shared_page(64));
     const PathTracer tracer(checked.scene, checked.world);
-    const TraceRate rate = measure_rate(checked.atlas, checked.map, tracer);
+    const RayRate rate = measure_rate(checked.atlas, checked.map, tracer);
     EXPECT_GT(rate.rays_per_second, 1e3);
     EXPECT_GE(rate.rays_per_sample, 1);
     EXPECT_LT(rate.rays_per_sample, 20);
@@ -212,7 +212,7 @@ TEST(Preflight, DrawsWhatItFound) {
             ++counts[{picture.rgb[i], picture.rgb[i + 1], picture.rgb[i + 2]}];
         return counts;
     };
-    const Image8 whole = preflight_picture(checked.found, checked.atlas, checked.map, 0);
+    const Image8 whole = preflight_picture(checked.found, 0);
     EXPECT_EQ(whole.width, 100u);
     auto counts = colours(whole);
     // Three charts, nothing, overlap, tight.
@@ -221,7 +221,7 @@ TEST(Preflight, DrawsWhatItFound) {
     EXPECT_EQ((counts[{255, 150, 0}]), checked.found.objects[1].tight_texels + checked.found.objects[0].tight_texels +
                                            checked.found.objects[2].tight_texels);
     // Smaller, and the worst is still there.
-    const Image8 small = preflight_picture(checked.found, checked.atlas, checked.map, 0, 30);
+    const Image8 small = preflight_picture(checked.found, 0, 30);
     EXPECT_EQ(small.width, 25u);
     EXPECT_EQ(small.rgb.size(), 25u * 25u * 3u);
     EXPECT_GE((colours(small)[{230, 20, 20}]), 25u);

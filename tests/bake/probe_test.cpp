@@ -1,9 +1,11 @@
 // Probes: the furnace's light at each, out of walls, the same bits at any number of threads.
 #include <gtest/gtest.h>
 
+#include <tbb/task_arena.h>
+
 #include <cmath>
 
-#include "bake/probes/probe_bake.h"
+#include "bake/probes/bake_probes.h"
 #include "small_scenes.h"
 
 namespace lobelia {
@@ -26,8 +28,8 @@ ProbeSet probes_of(const Scene& scene, const ProbeOptions& options, unsigned thr
     PathOptions paths;
     paths.bounces = 32;
     const PathTracer tracer(scene, world, paths);
-    const std::atomic<bool> stop = false;
-    auto probes = bake_probes(tracer, options, threads, stop);
+    tbb::task_arena arena(threads == 0 ? tbb::task_arena::automatic : static_cast<int>(threads));
+    auto probes = arena.execute([&] { return bake_probes(tracer, options); });
     EXPECT_TRUE(probes) << probes.error().message;
     return *std::move(probes);
 }

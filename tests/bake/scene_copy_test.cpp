@@ -1,7 +1,7 @@
 // The copy of the scene that goes with a bake: its lightmap UVs are the pages', and nothing else has changed.
 #include <gtest/gtest.h>
 
-#include "bake/write/bake_folder.h"
+#include "bake/write/manifest.h"
 #include "bake/write/scene_copy.h"
 #include "folders.h"
 #include "io/read_image.h"
@@ -20,9 +20,9 @@ struct Packed {
         options.atlas.layout = AtlasOptions::Layout::packed;
         const auto atlas = Atlas::make(world, options.atlas);
         EXPECT_TRUE(atlas);
-        bake.manifest = make_manifest(scene, *atlas, options, {});
+        bake.manifest = make_manifest(scene, *atlas, options);
         for (std::size_t i = 0; i < atlas->pages(); ++i) {
-            bake.pages.emplace_back(96, 80, bake.layout().channels());
+            bake.pages.emplace_back(96, 80, bake.channels().count());
             bake.normals.emplace_back(bake.pages.back().size());
         }
     }
@@ -101,8 +101,8 @@ TEST(PlainBake, HasNoCoefficientsAndNoTextures) {
     const auto atlas = Atlas::make(world, options.atlas);
     ASSERT_TRUE(atlas);
     Bake bake;
-    bake.manifest = make_manifest(scene, *atlas, options, {});
-    bake.pages.emplace_back(64, 64, bake.layout().channels());
+    bake.manifest = make_manifest(scene, *atlas, options);
+    bake.pages.emplace_back(64, 64, bake.channels().count());
     bake.normals.emplace_back(64 * 64);
     ASSERT_TRUE(write_bake(folder.path(), bake));
     EXPECT_EQ(folder.entries(), 2u);

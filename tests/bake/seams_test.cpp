@@ -20,11 +20,12 @@ using test::with_uv;
 
 /// Pages of an atlas that hold value(world position) at the texels of `map`, on all channels.
 template <class Value>
-std::vector<Page> pages_with(const Atlas& atlas, const TexelMap& map, const PageLayout& layout, const Value& value) {
-    std::vector<Page> pages(atlas.pages(), Page(atlas.width(), atlas.height(), layout.channels()));
+std::vector<LightmapPage> pages_with(const Atlas& atlas, const TexelMap& map, const PageChannels& layout,
+                                     const Value& value) {
+    std::vector<LightmapPage> pages(atlas.pages(), LightmapPage(atlas.width(), atlas.height(), layout.count()));
     const Guides guides = make_guides(atlas, map);
     for (std::size_t i = 0; i < map.texels.size(); ++i) {
-        Page& page = pages[map.texels[i].page];
+        LightmapPage& page = pages[map.texels[i].page];
         const std::size_t place = map.texels[i].y * atlas.width() + map.texels[i].x;
         page.chart[place] = atlas.chart_of_triangle()[map.triangle[i]] + 1;
         page.validity[place] = 1;
@@ -36,7 +37,7 @@ std::vector<Page> pages_with(const Atlas& atlas, const TexelMap& map, const Page
 }
 
 /// As a renderer reads it.
-float bilinear(const Page& page, std::size_t channel, Vec2 p) {
+float bilinear(const LightmapPage& page, std::size_t channel, Vec2 p) {
     float sum = 0;
     const float x = p.x - 0.5f, y = p.y - 0.5f;
     for (int dy = 0; dy < 2; ++dy)
@@ -77,7 +78,7 @@ struct TwoSquares {
         if (where == Where::two_pages) result.texels_per_metre = 40;
         return result;
     }
-    [[nodiscard]] double largest_difference(std::span<const Page> pages, std::size_t channel) const {
+    [[nodiscard]] double largest_difference(std::span<const LightmapPage> pages, std::size_t channel) const {
         const auto left = atlas.texel_triangle(0), right = atlas.texel_triangle(3);
         double largest = 0;
         for (float s = 0.01f; s < 1; s += 0.01f) {
@@ -96,7 +97,7 @@ constexpr std::array k_two_squares = {TwoSquares::Where::one_object, TwoSquares:
 float uneven_light(Vec3 p, std::uint32_t chart) { return (1 + p.y * p.y) * (chart == 1 ? 1.0f : 1.1f); }
 
 TEST(Seams, Close) {
-    const PageLayout layout{1};
+    const PageChannels layout{1};
     for (const auto where : k_two_squares) {
         const TwoSquares squares(where);
         const TexelMap map = map_texels(squares.atlas);
@@ -120,7 +121,7 @@ TEST(Seams, Close) {
 }
 
 TEST(Seams, LeaveFarTexelsAlone) {
-    const PageLayout layout{1};
+    const PageChannels layout{1};
     const TwoSquares squares(TwoSquares::Where::two_objects);
     const TexelMap map = map_texels(squares.atlas);
     const auto before = pages_with(squares.atlas, map, layout, uneven_light);
@@ -142,7 +143,7 @@ TEST(Seams, LeaveFarTexelsAlone) {
 }
 
 TEST(Seams, LeaveWhatAgrees) {
-    const PageLayout layout{1};
+    const PageChannels layout{1};
     for (const auto where : k_two_squares) {
         const TwoSquares squares(where);
         const TexelMap map = map_texels(squares.atlas);
@@ -176,7 +177,7 @@ TEST(Seams, WithinOneChartCloseToo) {
     const Atlas atlas = *Atlas::make(world, {.width = 100, .height = 40});
     const TexelMap map = map_texels(atlas);
     EXPECT_EQ(*std::max_element(atlas.chart_of_triangle().begin(), atlas.chart_of_triangle().end()), 0u);
-    const PageLayout layout{1};
+    const PageChannels layout{1};
     // Brightness grows along the way around; in the end it is half as much again.
     auto pages = pages_with(atlas, map, layout, [](Vec3 p, std::uint32_t) {
         const float a = std::atan2(p.y, p.x);
@@ -194,7 +195,7 @@ TEST(Seams, CloseAtTJunctions) {
     const Mesh upper = parallelogram({1, 0.5f, 0}, {1, 0, 0}, {0, 0.5f, 0}, {0.55f, 0.35f}, {0.95f, 0.55f});
     const World world = make_world(scene_of({left, lower, upper}));
     const Atlas atlas = *Atlas::make(world, {.width = 64, .height = 64});
-    const PageLayout layout{1};
+    const PageChannels layout{1};
     auto pages = pages_with(atlas, map_texels(atlas), layout, uneven_light);
     const SeamReport report = close_seams(pages, layout, atlas);
     EXPECT_EQ(report.edges, 3u);  // the halves of the long edge, and the edge between the two on the right
@@ -202,7 +203,7 @@ TEST(Seams, CloseAtTJunctions) {
 }
 
 TEST(Seams, StopAtCreasesAndUnbakedObjects) {
-    const PageLayout layout{1};
+    const PageChannels layout{1};
     const Mesh floor = parallelogram({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0}, {0.4f, 0.4f});
     const Mesh wall = parallelogram({1, 0, 0}, {0, 0, 1}, {0, 1, 0}, {0.5f, 0.5f}, {0.9f, 0.9f});
     Mesh bare = parallelogram({1, 0, 0}, {1, 0, 0}, {0, 1, 0});
@@ -216,7 +217,7 @@ TEST(Seams, StopAtCreasesAndUnbakedObjects) {
 }
 
 TEST(Seams, AreTheSameAtAnyNumberOfThreads) {
-    const PageLayout layout{4};
+    const PageChannels layout{4};
     const TwoSquares squares(TwoSquares::Where::two_objects);
     const TexelMap map = map_texels(squares.atlas);
     const auto run = [&](std::size_t threads) {

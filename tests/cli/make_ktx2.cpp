@@ -67,7 +67,8 @@ void make_bake(const std::filesystem::path& folder, const std::string& codec) {
     options.storages.emplace();
     for (const Storage& storage : storages())
         if (suits(storage, traits)) options.storages->emplace_back(storage.name);
-    require(write_bake(folder, bake, options));
+    const auto written = write_bake(folder, bake, options);
+    require(written ? Status(Done{}) : written.error());
 }
 
 }  // namespace

@@ -12,9 +12,9 @@ namespace lobelia {
 namespace {
 
 /// Coefficients of a page of texels, as planes.
-class Page {
+class LightmapPage {
   public:
-    Page(std::size_t width, std::size_t height, std::size_t coefficients)
+    LightmapPage(std::size_t width, std::size_t height, std::size_t coefficients)
         : width_(width), height_(height), values_(3 * coefficients, std::vector<float>(width * height)) {}
     [[nodiscard]] std::vector<float>& operator[](std::size_t plane) { return values_[plane]; }
     [[nodiscard]] const std::vector<float>& operator[](std::size_t plane) const { return values_[plane]; }
@@ -26,8 +26,8 @@ class Page {
     [[nodiscard]] MutableCoefficientPlanes view() {
         return {width_, height_, std::span<std::vector<float>>(values_), values_.size() / 3};
     }
-    [[nodiscard]] Page through(const TextureLayout& layout) const {
-        Page back(width_, height_, values_.size() / 3);
+    [[nodiscard]] LightmapPage through(const TextureLayout& layout) const {
+        LightmapPage back(width_, height_, values_.size() / 3);
         unpack(layout, pack(layout, view()), back.view());
         return back;
     }
@@ -59,13 +59,13 @@ TEST(SharedExponents, KeepTheirBoundWhereTheLargestComponentIsAboutToDouble) {
     const CoefficientTraits traits{1, true, true, {}};
     for (const char* name : {"rgb9e5", "rgbe"}) {
         const Storage& storage = *find_storage(name).value();
-        Page page(64, 64, 1), allowed = page;
+        LightmapPage page(64, 64, 1), allowed = page;
         for (std::size_t i = 0; i < page.size(); ++i) {
             page[0][i] = 2 - 0x1p-13f * static_cast<float>(i % 64);
             page[1][i] = 1 + 0x1p-13f * static_cast<float>(i / 64);
             page[2][i] = 0x1p-14f * static_cast<float>(i);
         }
-        const Page back = page.through(storage.layout(traits));
+        const LightmapPage back = page.through(storage.layout(traits));
         allowed_error(storage, traits, std::as_const(page).view(), allowed.view());
         double used = 0;
         for (std::size_t p = 0; p < 3; ++p)
@@ -77,11 +77,11 @@ TEST(SharedExponents, KeepTheirBoundWhereTheLargestComponentIsAboutToDouble) {
 }
 
 /// Coefficients that obey the traits, over many magnitudes, often at the edge of what is allowed.
-Page random_page(const CoefficientTraits& traits, std::size_t width, std::size_t height, std::uint32_t seed,
+LightmapPage random_page(const CoefficientTraits& traits, std::size_t width, std::size_t height, std::uint32_t seed,
                  Texture texture) {
     std::mt19937 generator(seed);
     const auto uniform = [&] { return static_cast<float>(generator()) * 0x1p-32f; };
-    Page page(width, height, traits.count);
+    LightmapPage page(width, height, traits.count);
     for (std::size_t p = 0; p < page.planes(); ++p) {
         const float phase = 6 * uniform(), slope = 0.1f + 0.2f * uniform();
         for (std::size_t i = 0; i < page.size(); ++i) {
@@ -104,9 +104,9 @@ Page random_page(const CoefficientTraits& traits, std::size_t width, std::size_t
 }
 
 /// The largest error as a share of what the storage's bound allows, over a page.
-double share_of_bound(const Storage& storage, const CoefficientTraits& traits, const Page& page) {
-    const Page back = page.through(storage.layout(traits));
-    Page allowed = page;
+double share_of_bound(const Storage& storage, const CoefficientTraits& traits, const LightmapPage& page) {
+    const LightmapPage back = page.through(storage.layout(traits));
+    LightmapPage allowed = page;
     allowed_error(storage, traits, page.view(), allowed.view());
     double worst = 0;
     for (std::size_t p = 0; p < page.planes(); ++p)
@@ -160,7 +160,7 @@ TEST(Storages, HugeAndTinyCoefficientsHoldTheirBounds) {
             if (!suits(storage, traits)) continue;
             SCOPED_TRACE(std::string(storage.name) + " of " + name);
             for (const float scale : {1e-6f, 1e-3f, 1e4f, 1e7f, 1e12f}) {
-                Page page = random_page(traits, 9, 7, 5, Texture::noisy);
+                LightmapPage page = random_page(traits, 9, 7, 5, Texture::noisy);
                 for (std::size_t p = 0; p < page.planes(); ++p)
                     for (float& v : page[p]) v *= scale;
                 EXPECT_LE(share_of_bound(storage, traits, page), 1) << scale;
@@ -172,7 +172,7 @@ TEST(Storages, BlackStaysBlack) {
     for (const auto& [name, traits] : all_traits())
         for (const Storage& storage : storages()) {
             if (!suits(storage, traits)) continue;
-            const Page black(6, 5, traits.count), back = black.through(storage.layout(traits));
+            const LightmapPage black(6, 5, traits.count), back = black.through(storage.layout(traits));
             for (std::size_t p = 0; p < back.planes(); ++p)
                 for (const float v : back[p]) EXPECT_EQ(v, 0) << storage.name;
         }
@@ -184,7 +184,7 @@ TEST(Storages, OneAfterTheOtherIsTheSame) {
         for (const Storage& storage : storages()) {
             if (!suits(storage, traits) || traits.count > 4) continue;
             SCOPED_TRACE(std::string(storage.name) + " of " + name);
-            const Page page = random_page(traits, 700, 21, 3, Texture::noisy);
+            const LightmapPage page = random_page(traits, 700, 21, 3, Texture::noisy);
             const TextureLayout layout = storage.layout(traits);
             const auto together = pack(layout, page.view());
             std::size_t i = 0;
@@ -213,7 +213,7 @@ TEST(Storages, RowsArePackedAsIfAlone) {
         for (const Storage& storage : storages()) {
             if (!suits(storage, traits) || traits.count > 4) continue;
             SCOPED_TRACE(std::string(storage.name) + " of " + name);
-            const Page page = random_page(traits, 700, 21, 3, Texture::noisy);
+            const LightmapPage page = random_page(traits, 700, 21, 3, Texture::noisy);
             const TextureLayout layout = storage.layout(traits);
             const auto whole = pack(layout, page.view());
             std::vector<std::size_t> at(whole.size());
@@ -265,7 +265,7 @@ TEST(Storages, TexturesAreOfTheStatedSize) {
             if (!suits(storage, traits)) continue;
             const TextureLayout layout = storage.layout(traits);
             std::size_t bytes = 0;
-            for (const PackedTexture& texture : pack(layout, Page(64, 64, traits.count).view()))
+            for (const PackedTexture& texture : pack(layout, LightmapPage(64, 64, traits.count).view()))
                 bytes += texture.data.size();
             EXPECT_DOUBLE_EQ(static_cast<double>(bytes) / (64 * 64), bytes_per_texel(layout)) << storage.name;
         }
@@ -384,13 +384,13 @@ TEST(LeadBounds, HoldForAnyLightThatIsNotNegative) {
 TEST(Storages, ProbesComeBackAsPagesDo) {
     const auto encoder = make_encoder("least-squares", make_basis(basis_names().front()).value()).value();
     const auto traits = coefficient_traits(*encoder);
-    const Page page = random_page(traits, 1, 1, 3, Texture::noisy);
+    const LightmapPage page = random_page(traits, 1, 1, 3, Texture::noisy);
     std::vector<Rgb> c;
     for (std::size_t i = 0; i < traits.count; ++i)
         c.push_back({page[3 * i][0], page[3 * i + 1][0], page[3 * i + 2][0]});
     for (const Storage& storage : storages()) {
         if (!suits(storage, traits)) continue;
-        const Page back = page.through(storage.layout(traits));
+        const LightmapPage back = page.through(storage.layout(traits));
         const auto read = stored_and_read(storage, traits, c);
         for (std::size_t i = 0; i < traits.count; ++i)
             EXPECT_EQ(read[i], (Rgb{back[3 * i][0], back[3 * i + 1][0], back[3 * i + 2][0]}));

@@ -3,7 +3,7 @@
 
 #include <random>
 
-#include "bake/write/bake_folder.h"
+#include "lobelia/bake.h"
 #include "lobelia/codec.h"
 
 namespace lobelia::test {
@@ -35,7 +35,7 @@ inline Bake some_bake(const std::string& codec, Frame frame = Frame::world) {
                  {"lamp", {}},
                  {"table", {1, {7.77f, 1e-3f}, {-3.3f, 9}, {1, 2, 9, 20}, true}}};
     for (std::size_t p = 0; p < 2; ++p) {
-        Page page(m.width, m.height, bake.layout().channels());
+        LightmapPage page(m.width, m.height, bake.channels().count());
         std::vector<Vec3> normals(page.size());
         for (std::size_t i = 0; i < page.size(); ++i) {
             if (i % 5 == 0) continue;

@@ -24,7 +24,8 @@ inline Measured measure(const PathTracer& tracer, Vec3 on_surface, Vec3 normal, 
     const Vec3 position = on_surface + normal * tracer.lift(on_surface);
     std::vector<Receiver> receivers(options.keys);
     for (std::uint32_t key = 0; key < options.keys; ++key) {
-        receivers[key].positions = {&position, 1};
+        receivers[key].positions[0] = position;
+        receivers[key].position_count = 1;
         receivers[key].normal = normal;
         receivers[key].domain = options.domain;
         receivers[key].key = key;

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "bake/place/texels.h"
 #include "measure.h"
 #include "support.h"
 #include "trace/sequence.h"
@@ -33,7 +34,8 @@ class Gathering : public ::testing::Test {
   protected:
     Receiver receiver(Domain domain, std::uint32_t key) const {
         Receiver r;
-        r.positions = positions_;
+        std::copy(positions_.begin(), positions_.end(), r.positions.begin());
+        r.position_count = 2;
         r.normal = normalize(Vec3{0.1f, 1, 0.2f});
         r.domain = domain;
         r.key = key;
@@ -126,18 +128,17 @@ TEST_F(Gathering, SameBitsHoweverItIsDivided) {
 }
 
 TEST_F(Gathering, TheFrameTurnsDirectionsAlone) {
-    Receiver r = receiver(Domain::hemisphere, 9);
+    const Receiver r = receiver(Domain::hemisphere, 9);
     run({&r, 1}, {0, 32});
     std::vector<RadianceSample> before;
     for (std::size_t i = 0; i < 32; ++i)
         before.push_back(
             {direction_at(buffer_.directions(0).directions(), i), colour_at(buffer_.directions(0).radiance(), i), 0});
-    r.frame_from_world = test::some_rotation();
-    run({&r, 1}, {0, 32});
+    run({&r, 1}, {0, 32}, {.frame = Frame::tangent});
     for (std::size_t i = 0; i < 32; ++i) {
         EXPECT_EQ(colour_at(buffer_.directions(0).radiance(), i), before[i].radiance);
         EXPECT_LT(length(direction_at(buffer_.directions(0).directions(), i) -
-                         rotate(r.frame_from_world, before[i].direction)),
+                         rotate(tangent_from_world(r.normal), before[i].direction)),
                   1e-6f);
     }
 }
@@ -146,7 +147,7 @@ TEST_F(Gathering, SamplesTakeTurnsBetweenPositions) {
     // One position sees the lamp's light, the other lies in a block.
     const std::array<Vec3, 2> places{Vec3{0.1f, 0.01f, 0.1f}, {1, 0.3f, 0}};
     Receiver r = receiver(Domain::hemisphere, 1);
-    r.positions = places;
+    std::copy(places.begin(), places.end(), r.positions.begin());
     r.normal = {0, 1, 0};
     run({&r, 1}, {0, 64});
     EXPECT_EQ(buffer_.gathered(0).back_faces, 32u);

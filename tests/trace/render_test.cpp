@@ -57,9 +57,9 @@ void expect_near(Rgb a, Rgb b, float tolerance) {
 /// A page whose every texel holds the same radiance from everywhere.
 struct ConstantBake {
     std::optional<Codec> codec;
-    std::vector<Page> pages;
+    std::vector<LightmapPage> pages;
     std::vector<AtlasPlacement> placements;
-    PageLayout layout;
+    PageChannels channels;
 
     ConstantBake(const Scene& scene, const std::string& codec_name, Rgb radiance) {
         if (!codec_name.empty()) codec = *make_codec(codec_name);
@@ -73,20 +73,20 @@ struct ConstantBake {
                             {direction_at(rule.directions.view(), i), radiance, static_cast<float>(rule.weights[i])});
             c = codec->encode(samples);
         }
-        layout.coefficients = c.size();
-        Page page(12, 4, layout.channels());
+        channels.coefficients = c.size();
+        LightmapPage page(12, 4, channels.count());
         const auto fill = [&](std::size_t plane, Rgb value) {
             page.planes[plane].assign(page.size(), value.r);
             page.planes[plane + 1].assign(page.size(), value.g);
             page.planes[plane + 2].assign(page.size(), value.b);
         };
-        for (std::size_t i = 0; i < c.size(); ++i) fill(layout.coefficient(i, 0), c[i]);
-        fill(layout.irradiance(0), radiance * static_cast<float>(k_pi));
+        for (std::size_t i = 0; i < c.size(); ++i) fill(channels.coefficient(i, 0), c[i]);
+        fill(channels.irradiance(0), radiance * static_cast<float>(k_pi));
         pages.push_back(std::move(page));
         for (std::size_t i = 0; i < scene.objects.size(); ++i) placements.push_back({0, {12, 4}, {0, 0}, {}, true});
     }
     [[nodiscard]] BakedLight light(bool in_tangent_frame) const {
-        return {pages, placements, layout, codec ? &*codec : nullptr, in_tangent_frame};
+        return {pages, placements, channels, codec, in_tangent_frame ? Frame::tangent : Frame::world};
     }
 };
 
@@ -175,7 +175,7 @@ TEST(RenderBake, ReadsTheTexelsAboutThePoint) {
     bake.placements[0].scale = {8, 4};
     bake.placements[0].offset = {2, 0};
     for (std::size_t i = 0; i < bake.pages[0].size(); ++i)
-        bake.pages[0].planes[bake.layout.irradiance(1)][i] = static_cast<float>(k_pi) * static_cast<float>(i % 12);
+        bake.pages[0].planes[bake.channels.irradiance(1)][i] = static_cast<float>(k_pi) * static_cast<float>(i % 12);
     const World world = make_world(scene);
     const PathTracer tracer(scene, world);
     Camera camera;

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "bake/preflight/preflight.h"
 #include "page_support.h"
 #include "scene/embedded.h"
 
@@ -16,25 +17,25 @@ using namespace test;
 /// Two pages of one small codec, some texels of them baked: E and coefficients are simple functions of the place.
 struct SmallBake {
     Codec codec = *make_codec("sh1/moments/convolution");
-    std::vector<Page> pages;
+    std::vector<LightmapPage> pages;
     std::vector<AtlasPlacement> placements{{}, {}};
-    BakePage page;
+    BakeReport page;
 
     explicit SmallBake(std::size_t width = 6, std::size_t height = 4) {
-        const PageLayout layout{codec.basis().size()};
+        const PageChannels layout{codec.basis().size()};
         for (std::uint32_t p = 0; p < 2; ++p) {
-            Page& made = pages.emplace_back(width, height, layout.channels());
+            LightmapPage& made = pages.emplace_back(width, height, layout.count());
             for (std::size_t i = 0; i < made.size(); ++i) {
                 if (i % 3 == 2) continue;
                 made.chart[i] = 2 * p + static_cast<std::uint32_t>(i % 3) + 1;
                 made.validity[i] = i % 2 == 0 ? 1.0f : 0.25f;
-                for (std::size_t plane = 0; plane < layout.channels(); ++plane)
+                for (std::size_t plane = 0; plane < layout.count(); ++plane)
                     made.planes[plane][i] = static_cast<float>(plane + 1) * (i % 2 == 0 ? 1.0f : -2.0f);
             }
         }
         page.title = "small";
-        page.light = {pages, placements, layout, &codec, false};
-        for (const Page& p : pages) page.codec_irradiance.emplace_back(p.size(), Rgb{14, 14, 14});
+        page.light = {pages, placements, layout, codec, Frame::world};
+        for (const LightmapPage& p : pages) page.codec_irradiance.emplace_back(p.size(), Rgb{14, 14, 14});
         page.object_of_chart = {0, 1, 1, 1};
         Scene scene;
         scene.objects = {{"table", 0, {}}, {"floor", 0, {}}, {"no lightmap", 0, {}}};
@@ -58,16 +59,16 @@ std::vector<std::uint16_t> words_of(const nlohmann::json& picture, const char* k
     return words;
 }
 
-TEST(BakePage, LoadsNothing) { expect_loads_nothing(bake_html(SmallBake().page)); }
-TEST(BakePage, FillsEveryMark) { expect_filled(bake_html(SmallBake().page)); }
-TEST(BakePage, IsThereWithoutAnything) {
+TEST(BakeReport, LoadsNothing) { expect_loads_nothing(bake_html(SmallBake().page)); }
+TEST(BakeReport, FillsEveryMark) { expect_filled(bake_html(SmallBake().page)); }
+TEST(BakeReport, IsThereWithoutAnything) {
     const std::string html = bake_html({});
     expect_filled(html);
     EXPECT_TRUE(data_of(html)["layers"].empty());
     EXPECT_TRUE(pictures_of(html).empty());
 }
 
-TEST(BakePage, NoNameEndsItsScriptElement) {
+TEST(BakeReport, NoNameEndsItsScriptElement) {
     const std::string text = "</script><script>alert(1)</script><!-- \"quoted\" \\ {{bake}} {{page.css}}";
     SmallBake bake;
     bake.page.title = text;
@@ -87,7 +88,7 @@ TEST(BakePage, NoNameEndsItsScriptElement) {
     EXPECT_EQ(data["preflight"]["pictures"][0]["title"], text);
 }
 
-TEST(BakePage, ViewsHoldTheirPixels) {
+TEST(BakeReport, ViewsHoldTheirPixels) {
     SmallBake bake;
     Image baked(2, 1), truth(2, 1);
     baked.pixels = {{1, 2, 4}, {8, 0.5f, 0.25f}};
@@ -107,11 +108,11 @@ TEST(BakePage, ViewsHoldTheirPixels) {
     EXPECT_EQ(view["samples"], 64);
 }
 
-TEST(BakePage, LayersHoldWhatTexelsHold) {
+TEST(BakeReport, LayersHoldWhatTexelsHold) {
     const SmallBake bake;
     const std::string html = bake_html(bake.page);
     const auto pictures = pictures_of(html);
-    const PageLayout& layout = bake.page.light.layout;
+    const PageChannels& layout = bake.page.light.channels;
     for (const auto& [name, plane] : std::map<std::string, std::size_t>{
              {"E", layout.irradiance(0)}, {"c0", layout.coefficient(0, 0)}, {"c3", layout.coefficient(3, 0)}})
         for (std::size_t p = 0; p < 2; ++p) {
@@ -126,9 +127,9 @@ TEST(BakePage, LayersHoldWhatTexelsHold) {
     EXPECT_EQ(pictures["validity 0"]["channels"], 1);
 }
 
-TEST(BakePage, LargePagesAreReducedToMeansOfTheirCharts) {
+TEST(BakeReport, LargePagesAreReducedToMeansOfTheirCharts) {
     SmallBake bake(64, 48);
-    for (Page& page : bake.pages)
+    for (LightmapPage& page : bake.pages)
         for (auto& plane : page.planes)
             for (std::size_t i = 0; i < plane.size(); ++i)
                 if (page.chart[i] != 0) plane[i] = 3;
@@ -213,7 +214,7 @@ TEST(ObjectFigures, ChartsBelongToTheirObjects) {
     const Scene scene = cornell_scene();
     const World world = make_world(scene);
     const Atlas atlas = *Atlas::make(world, {});
-    const auto objects = objects_of_charts(atlas);
+    const auto objects = preflight(atlas, map_texels(atlas)).object_of_chart;
     for (std::size_t t = 0; t < world.triangles.size(); ++t) {
         const std::uint32_t chart = atlas.chart_of_triangle()[t];
         if (chart == Atlas::k_no_chart) continue;

@@ -27,9 +27,9 @@ constexpr float k_least_share = 0.25f;
 
 class PageDenoiser {
   public:
-    PageDenoiser(Page& page, const PageLayout& layout, std::span<const Vec3> position, std::span<const Vec3> normal,
-                 const DenoiseOptions& options)
-        : page_(page), layout_(layout), position_(position), normal_(normal), options_(options) {}
+    PageDenoiser(LightmapPage& page, const PageChannels& channels, std::span<const Vec3> position,
+                 std::span<const Vec3> normal, const DenoiseOptions& options)
+        : page_(page), channels_(channels), position_(position), normal_(normal), options_(options) {}
 
     void run(std::span<const double> integrals, double domain_solid_angle);
 
@@ -49,8 +49,8 @@ class PageDenoiser {
     void average_all();
 
     [[nodiscard]] bool usable(std::size_t i) const { return is_usable(page_, i, options_.least_validity); }
-    Page& page_;
-    const PageLayout& layout_;
+    LightmapPage& page_;
+    const PageChannels& channels_;
     std::span<const Vec3> position_, normal_;
     const DenoiseOptions& options_;
     std::array<std::vector<float>, 3> brightness_;  ///< by channel
@@ -70,7 +70,7 @@ void PageDenoiser::for_each_usable(const Visit& visit) const {
 void PageDenoiser::run(std::span<const double> integrals, double domain_solid_angle) {
     divide(integrals, domain_solid_angle);
     // An error that nobody knows counts as none.
-    auto& error = page_.planes[layout_.error()];
+    auto& error = page_.planes[channels_.error()];
     for_each_usable(
         [&](std::size_t i, std::size_t, std::size_t) { error[i] = std::isfinite(error[i]) ? error[i] * error[i] : 0; });
     weights_.width = page_.width;
@@ -91,15 +91,15 @@ void PageDenoiser::divide(std::span<const double> integrals, double domain_solid
     for_each_usable([&](std::size_t i, std::size_t, std::size_t) {
         for (std::size_t k = 0; k < 3; ++k) {
             double mean = 0, size = 0;
-            for (std::size_t c = 0; c < layout_.coefficients; ++c) {
-                const double part = integrals[c] * page_.planes[layout_.coefficient(c, k)][i] / domain_solid_angle;
+            for (std::size_t c = 0; c < channels_.coefficients; ++c) {
+                const double part = integrals[c] * page_.planes[channels_.coefficient(c, k)][i] / domain_solid_angle;
                 mean += part;
                 size += std::abs(part);
             }
             const auto brightness = static_cast<float>(std::max(mean, k_least_share * size));
             brightness_[k][i] = brightness;
-            for (std::size_t c = 0; c < layout_.coefficients; ++c) {
-                float& value = page_.planes[layout_.coefficient(c, k)][i];
+            for (std::size_t c = 0; c < channels_.coefficients; ++c) {
+                float& value = page_.planes[channels_.coefficient(c, k)][i];
                 value = brightness > 0 ? value / brightness : NAN;
             }
         }
@@ -109,8 +109,8 @@ void PageDenoiser::divide(std::span<const double> integrals, double domain_solid
 void PageDenoiser::multiply() {
     for_each_usable([&](std::size_t i, std::size_t, std::size_t) {
         for (std::size_t k = 0; k < 3; ++k)
-            for (std::size_t c = 0; c < layout_.coefficients; ++c) {
-                float& value = page_.planes[layout_.coefficient(c, k)][i];
+            for (std::size_t c = 0; c < channels_.coefficients; ++c) {
+                float& value = page_.planes[channels_.coefficient(c, k)][i];
                 value = std::isnan(value) ? 0 : value * brightness_[k][i];
             }
     });
@@ -154,7 +154,7 @@ void PageDenoiser::smooth_variance() {
         const std::optional<float> exponent = geometry(i, j);
         return exponent ? std::exp(*exponent) : 0;
     });
-    auto& error = page_.planes[layout_.error()];
+    auto& error = page_.planes[channels_.error()];
     std::vector<float> smooth(page_.size());
     average(weights_, AtrousMean::values, error, smooth);
     error.swap(smooth);
@@ -172,7 +172,7 @@ std::optional<float> PageDenoiser::geometry(std::size_t i, std::size_t j) const 
 }
 
 float PageDenoiser::weight(std::size_t i, std::size_t j) const {
-    const auto& error = page_.planes[layout_.error()];
+    const auto& error = page_.planes[channels_.error()];
     const float variance = options_.strength * options_.strength * (error[i] + error[j]);
     if (!(variance > 0)) return 0;
     const std::optional<float> exponent = geometry(i, j);
@@ -180,7 +180,7 @@ float PageDenoiser::weight(std::size_t i, std::size_t j) const {
     constexpr float luminous[3] = {0.2126f, 0.7152f, 0.0722f};
     float difference = 0, sum = 0;
     for (std::size_t k = 0; k < 3; ++k) {
-        const auto& E = page_.planes[layout_.irradiance(k)];
+        const auto& E = page_.planes[channels_.irradiance(k)];
         difference += luminous[k] * std::abs(E[i] - E[j]);
         sum += luminous[k] * (std::abs(E[i]) + std::abs(E[j]));
     }
@@ -190,12 +190,12 @@ float PageDenoiser::weight(std::size_t i, std::size_t j) const {
 
 void PageDenoiser::average_all() {
     // Ratios, irradiance, error; then the brightness.
-    const std::size_t channels = layout_.channels();
+    const std::size_t channels = channels_.count();
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, channels + 3, 1), [&](const auto& range) {
         std::vector<float>& work = work_.local();
         for (std::size_t c = range.begin(); c != range.end(); ++c) {
-            AtrousMean mean = c < 3 * layout_.coefficients ? AtrousMean::known_values : AtrousMean::values;
-            if (c == layout_.error())
+            AtrousMean mean = c < 3 * channels_.coefficients ? AtrousMean::known_values : AtrousMean::values;
+            if (c == channels_.error())
                 mean = weights_.step == 1 ? AtrousMean::first_variances : AtrousMean::later_variances;
             std::vector<float>& plane = c < channels ? page_.planes[c] : brightness_[c - channels];
             work.resize(page_.size());
@@ -207,11 +207,11 @@ void PageDenoiser::average_all() {
 
 }  // namespace
 
-void denoise(std::span<Page> pages, const PageLayout& layout, const Guides& guides, std::span<const double> integrals,
-             double domain_solid_angle, const DenoiseOptions& options) {
-    assert(integrals.size() == layout.coefficients && guides.position.size() == pages.size());
+void denoise(std::span<LightmapPage> pages, const PageChannels& channels, const Guides& guides,
+             std::span<const double> integrals, double domain_solid_angle, const DenoiseOptions& options) {
+    assert(integrals.size() == channels.coefficients && guides.position.size() == pages.size());
     for (std::size_t p = 0; p < pages.size(); ++p)
-        PageDenoiser(pages[p], layout, guides.position[p], guides.normal[p], options)
+        PageDenoiser(pages[p], channels, guides.position[p], guides.normal[p], options)
             .run(integrals, domain_solid_angle);
 }
 

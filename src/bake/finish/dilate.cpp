@@ -18,7 +18,7 @@ struct Fillings {
 constexpr std::size_t k_rows = 32;
 
 /// Marks texels that have a usable one within `radius` in x and in y, so that the others need no search.
-std::vector<std::uint8_t> near_usable(const Page& page, const DilateOptions& options) {
+std::vector<std::uint8_t> near_usable(const LightmapPage& page, const DilateOptions& options) {
     const std::size_t w = page.width, h = page.height;
     std::vector<std::uint8_t> along_rows(page.size()), result(page.size());
     // A texel is reached if the last usable one before it, or the next one after it, is near enough.
@@ -47,7 +47,7 @@ std::vector<std::uint8_t> near_usable(const Page& page, const DilateOptions& opt
     return result;
 }
 
-std::vector<Fillings> find_fillings(const Page& page, const DilateOptions& options) {
+std::vector<Fillings> find_fillings(const LightmapPage& page, const DilateOptions& options) {
     const NearestTexels nearest(page, options.radius, options.least_validity);
     const std::vector<std::uint8_t> worth_it = near_usable(page, options);
     std::vector<Fillings> result((page.height + k_rows - 1) / k_rows);
@@ -78,8 +78,8 @@ void fill(const Fillings& fillings, std::vector<float>& plane) {
 
 }  // namespace
 
-void dilate(std::span<Page> pages, const DilateOptions& options) {
-    for (Page& page : pages) {
+void dilate(std::span<LightmapPage> pages, const DilateOptions& options) {
+    for (LightmapPage& page : pages) {
         const std::vector<Fillings> fillings = find_fillings(page, options);
         tbb::parallel_for(std::size_t{0}, page.planes.size(), [&](std::size_t c) {
             tbb::parallel_for(std::size_t{0}, fillings.size(),

@@ -4,8 +4,8 @@
 
 #include "bake/place/atlas.h"
 #include "bake/place/texels.h"
-#include "bake/solve/pages.h"
 #include "lobelia/basis.h"
+#include "lobelia/lightmap.h"
 
 namespace lobelia {
 
@@ -13,7 +13,7 @@ namespace lobelia {
 struct Guides {
     std::vector<std::vector<Vec3>> position, normal;
 };
-/// Positions and normals as make_texels gives them.
+/// Positions and normals as make_receivers gives them.
 [[nodiscard]] Guides make_guides(const Atlas& atlas, const TexelMap& map);
 
 /// Makes the two sides of each seam agree: where an edge of a triangle, or the part of it at which a shorter one lies,
@@ -30,7 +30,7 @@ struct SeamReport {
     std::size_t edges = 0;         ///< pairs, of edges or of parts, that were joined
     double before = 0, after = 0;  ///< RMS difference of the irradiance channels along them
 };
-SeamReport close_seams(std::span<Page> pages, const PageLayout& layout, const Atlas& atlas,
+SeamReport close_seams(std::span<LightmapPage> pages, const PageChannels& channels, const Atlas& atlas,
                        const SeamOptions& options = {});
 
 /// Smooths noise within each chart, never across charts: an edge-avoiding filter guided by position and normal and
@@ -42,12 +42,12 @@ struct DenoiseOptions {
     float strength = 2;           ///< how many standard errors of a difference count as noise
     float least_validity = 0.5f;  ///< texels below it are neither read nor changed
 };
-void denoise(std::span<Page> pages, const PageLayout& layout, const Guides& guides, std::span<const double> integrals,
-             double domain_solid_angle, const DenoiseOptions& options = {});
+void denoise(std::span<LightmapPage> pages, const PageChannels& channels, const Guides& guides,
+             std::span<const double> integrals, double domain_solid_angle, const DenoiseOptions& options = {});
 
 /// From pages of what `basis` is fitted from to pages of its own coefficients, texel by texel, empty ones, too. The
 /// last step.
-[[nodiscard]] std::vector<Page> fit_pages(std::span<const Page> pages, const FittedBasis& basis);
+[[nodiscard]] std::vector<LightmapPage> fit_pages(std::span<const LightmapPage> pages, const FittedBasis& basis);
 
 /// Fills texels where nothing was baked, or whose validity is below `least_validity`, from their nearest valid
 /// neighbours within `radius` texels, of the same chart first; so that filtering and mips read no rubbish. `chart`
@@ -56,6 +56,6 @@ struct DilateOptions {
     std::size_t radius = 4;
     float least_validity = 0.5f;
 };
-void dilate(std::span<Page> pages, const DilateOptions& options = {});
+void dilate(std::span<LightmapPage> pages, const DilateOptions& options = {});
 
 }  // namespace lobelia

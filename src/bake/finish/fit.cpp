@@ -9,10 +9,10 @@
 namespace lobelia {
 namespace {
 
-Page fitted_page(const Page& from, const FittedBasis& basis) {
-    const PageLayout source{basis.accumulated()->size()}, target{basis.size()};
-    assert(from.planes.size() == source.channels());
-    Page to(from.width, from.height, target.channels());
+LightmapPage fitted_page(const LightmapPage& from, const FittedBasis& basis) {
+    const PageChannels source{basis.accumulated()->size()}, target{basis.size()};
+    assert(from.planes.size() == source.count());
+    LightmapPage to(from.width, from.height, target.count());
     to.chart = from.chart;
     to.validity = from.validity;
     // What is not a coefficient stays.
@@ -39,9 +39,9 @@ Page fitted_page(const Page& from, const FittedBasis& basis) {
 
 }  // namespace
 
-std::vector<Page> fit_pages(std::span<const Page> pages, const FittedBasis& basis) {
-    std::vector<Page> fitted;
-    for (const Page& page : pages) fitted.push_back(fitted_page(page, basis));
+std::vector<LightmapPage> fit_pages(std::span<const LightmapPage> pages, const FittedBasis& basis) {
+    std::vector<LightmapPage> fitted;
+    for (const LightmapPage& page : pages) fitted.push_back(fitted_page(page, basis));
     return fitted;
 }
 

@@ -6,7 +6,7 @@
 
 namespace lobelia {
 
-NearestTexels::NearestTexels(const Page& page, std::size_t radius, float least_validity)
+NearestTexels::NearestTexels(const LightmapPage& page, std::size_t radius, float least_validity)
     : page_(page), least_validity_(least_validity) {
     const int r = static_cast<int>(std::min(radius, std::max(page.width, page.height)));
     for (int y = -r; y <= r; ++y)

@@ -4,19 +4,19 @@
 #include <cstdint>
 #include <vector>
 
-#include "bake/solve/pages.h"
+#include "lobelia/lightmap.h"
 
 namespace lobelia {
 
 /// Whether a texel holds something fit to be read: baked, and valid.
-[[nodiscard]] inline bool is_usable(const Page& page, std::size_t i, float least_validity) {
+[[nodiscard]] inline bool is_usable(const LightmapPage& page, std::size_t i, float least_validity) {
     return page.chart[i] != 0 && page.validity[i] >= least_validity;
 }
 
 class NearestTexels {
   public:
     /// The page must outlive it.
-    NearestTexels(const Page& page, std::size_t radius, float least_validity);
+    NearestTexels(const LightmapPage& page, std::size_t radius, float least_validity);
 
     /// Replaces `out` by the texels whose mean fills texel i: all usable ones at the least distance, of its own chart
     /// if it has one and there are any. Itself if it is usable; none if there are none within the radius.
@@ -29,7 +29,7 @@ class NearestTexels {
     enum class Charts { own, any };
     void find(std::size_t i, Charts charts, std::vector<std::uint32_t>& out) const;
 
-    const Page& page_;
+    const LightmapPage& page_;
     float least_validity_;
     std::vector<Offset> offsets_;  ///< by distance
 };

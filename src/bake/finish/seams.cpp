@@ -28,8 +28,8 @@ struct Share {
 /// Reads what bilinear filtering will read once texels are dilated, as sums over texels that hold something.
 class Footprints {
   public:
-    Footprints(std::span<const Page> pages, float least_validity) : pages_(pages) {
-        for (const Page& page : pages) {
+    Footprints(std::span<const LightmapPage> pages, float least_validity) : pages_(pages) {
+        for (const LightmapPage& page : pages) {
             nearest_.emplace_back(page, 2, least_validity);
             first_.push_back(first_.back() + page.size());
         }
@@ -45,14 +45,14 @@ class Footprints {
     }
 
   private:
-    std::span<const Page> pages_;
+    std::span<const LightmapPage> pages_;
     std::vector<NearestTexels> nearest_;
     std::vector<std::uint64_t> first_{0};  ///< number of each page's first texel
     std::vector<std::uint32_t> sources_;
 };
 
 bool Footprints::append(std::size_t page_index, std::uint32_t chart, Vec2 p, float total, std::vector<Share>& out) {
-    const Page& page = pages_[page_index];
+    const LightmapPage& page = pages_[page_index];
     const std::size_t begin = out.size();
     const float x = p.x - 0.5f, y = p.y - 0.5f, x0 = std::floor(x), y0 = std::floor(y);
     float found = 0;
@@ -153,7 +153,8 @@ struct Squared {
     double before = 0, after = 0;
 };
 
-Squared close(std::span<Page> pages, const Footprints& footprints, const SeamSystem& system, std::size_t channel) {
+Squared close(std::span<LightmapPage> pages, const Footprints& footprints, const SeamSystem& system,
+              std::size_t channel) {
     Eigen::VectorXd values(system.matrix.cols());
     for (std::size_t i = 0; i < system.texels.size(); ++i) {
         const auto [page, texel] = footprints.place(system.texels[i]);
@@ -179,7 +180,7 @@ Squared close(std::span<Page> pages, const Footprints& footprints, const SeamSys
 
 }  // namespace
 
-SeamReport close_seams(std::span<Page> pages, const PageLayout& layout, const Atlas& atlas,
+SeamReport close_seams(std::span<LightmapPage> pages, const PageChannels& channels, const Atlas& atlas,
                        const SeamOptions& options) {
     const std::vector<Seam> seams = find_seams(atlas, options.tolerance);
     SeamReport report{.edges = seams.size()};
@@ -188,15 +189,15 @@ SeamReport close_seams(std::span<Page> pages, const PageLayout& layout, const At
     if (system.weight.empty()) return report;
 
     // All but the error, which is no light.
-    std::vector<Squared> squared(layout.channels());
-    tbb::parallel_for(std::size_t{0}, layout.channels(), [&](std::size_t channel) {
-        if (channel != layout.error()) squared[channel] = close(pages, footprints, system, channel);
+    std::vector<Squared> squared(channels.count());
+    tbb::parallel_for(std::size_t{0}, channels.count(), [&](std::size_t channel) {
+        if (channel != channels.error()) squared[channel] = close(pages, footprints, system, channel);
     });
 
     Squared irradiance;
     for (std::size_t k = 0; k < 3; ++k) {
-        irradiance.before += squared[layout.irradiance(k)].before;
-        irradiance.after += squared[layout.irradiance(k)].after;
+        irradiance.before += squared[channels.irradiance(k)].before;
+        irradiance.after += squared[channels.irradiance(k)].after;
     }
     double weight = 0;
     for (const double w : system.weight) weight += 3 * w;

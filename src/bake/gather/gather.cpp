@@ -1,8 +1,9 @@
-// Gathering: directions for receivers, their paths and light sources, and the samples that come of both.
+// Gathering: first directions of receivers, their paths and shadow rays, and the samples made of both.
 #include "bake/gather/gather.h"
 
 #include <cassert>
 
+#include "bake/place/texels.h"
 #include "trace/directions.h"
 #include "trace/material.h"
 
@@ -11,14 +12,14 @@ namespace {
 
 constexpr auto k_pi_f = static_cast<float>(k_pi);
 
-/// Density [1/sr] of a direction whose cosine to the normal is `cosine`.
+/// Returns the density [1/sr] of a direction with this cosine to the normal.
 float direction_pdf(Domain domain, DirectionChoice choice, float cosine) {
     if (domain == Domain::sphere) return 1 / (4 * k_pi_f);
     constexpr float uniform = 1 / (2 * k_pi_f);
     return choice == DirectionChoice::uniform ? uniform : 0.5f * (uniform + cosine * k_over_pi);
 }
 
-/// A direction about z.
+/// Samples a direction about z.
 Vec3 sample_direction(Domain domain, DirectionChoice choice, Pair point) {
     if (domain == Domain::sphere) return around_z(1 - 2 * point.a, point.b);
     if (choice == DirectionChoice::uniform) return around_z(1 - point.a, point.b);
@@ -26,33 +27,34 @@ Vec3 sample_direction(Domain domain, DirectionChoice choice, Pair point) {
     return cosine_direction({2 * point.a - 1, point.b});
 }
 
-/// Lets a receiver's paths set out in the directions of its sequence.
-void set_out(const Receiver& receiver, std::uint32_t first, DirectionChoice choice, std::uint32_t seed,
-             std::span<PathStart> starts) {
-    assert(!receiver.positions.empty());
+/// Makes path starts in the directions of the receiver's sequence.
+void make_starts(const Receiver& receiver, std::uint32_t first, DirectionChoice choice, std::uint32_t seed,
+                 std::span<PathStart> starts) {
+    assert(receiver.position_count > 0);
     assert(receiver.domain == Domain::hemisphere || choice == DirectionChoice::uniform);
     const Axes axes(receiver.normal);
     const std::uint32_t mixed_key = mix(receiver.key, seed);
     for (std::size_t i = 0; i < starts.size(); ++i) {
         const auto s = static_cast<std::uint32_t>(first + i);
         const Vec3 local = sample_direction(receiver.domain, choice, pair_of(mixed_key, s, 0));
-        starts[i] = {receiver.positions[s % receiver.positions.size()],
+        starts[i] = {receiver.positions[s % receiver.position_count],
                      receiver.domain == Domain::sphere ? local : axes.world(local), receiver.key, s};
     }
 }
 
-/// Where a receiver's samples go: those of its paths, of the dark below its horizon, and of light sources.
+/// Places of a receiver's samples: of its paths, of the dark below its horizon, and of direct light.
 struct Places {
     Samples* samples;
     std::size_t paths, dark, sources;
 };
 
-/// Turns what arrived at one receiver into samples and an estimate of its irradiance.
+/// Turns the light that arrived at one receiver into samples and an estimate of its irradiance.
 class Receiving {
   public:
-    Receiving(const Receiver& receiver, DirectionChoice choice, Gathered& gathered, const Places& places)
+    Receiving(const Receiver& receiver, const GatherOptions& options, Gathered& gathered, const Places& places)
         : receiver_(receiver),
-          choice_(choice),
+          choice_(options.directions),
+          frame_from_world_(options.frame == Frame::tangent ? tangent_from_world(receiver.normal) : k_world),
           gathered_(gathered),
           places_(places),
           uniform_(static_cast<float>(1 / solid_angle(receiver.domain))) {}
@@ -69,8 +71,8 @@ class Receiving {
         gathered_.irradiance = gathered_.irradiance + radiance * (cosine / pdf);
     }
 
-    /// A light source of irradiance E across the beam is radiance E / solid angle; `otherwise` is the direction of
-    /// none.
+    /// Adds a light source: irradiance E across the beam as radiance E / solid angle. Without light, the sample is
+    /// black and lies in direction `otherwise`.
     void add_source(std::size_t i, const DirectLight& light, Vec3 otherwise) {
         const bool none = is_black(light.irradiance);
         const Vec3 direction = none ? otherwise : light.direction;
@@ -87,16 +89,18 @@ class Receiving {
     }
 
   private:
-    /// With which weight radiance counts: its cosine, or what makes pi times the mean radiance of a sphere.
+    /// Weight of radiance in the irradiance: the cosine, or for probes that of pi times the mean radiance.
     [[nodiscard]] float weight_of(Vec3 direction) const {
         return receiver_.domain == Domain::sphere ? 0.25f : std::max(0.0f, dot(direction, receiver_.normal));
     }
     void put(std::size_t at, Vec3 direction, Rgb radiance, float share) const {
-        places_.samples->set(at, {rotate(receiver_.frame_from_world, direction), radiance, share});
+        places_.samples->set(at, {rotate(frame_from_world_, direction), radiance, share});
     }
 
+    static constexpr Rotation k_world{Vec3{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     const Receiver& receiver_;
     DirectionChoice choice_;
+    Rotation frame_from_world_;
     Gathered& gathered_;
     Places places_;
     float uniform_;  ///< density of uniform directions [1/sr]
@@ -119,20 +123,20 @@ void gather(const PathTracer& tracer, std::span<const Receiver> receivers, Sampl
     buffer.incident_.resize(all);
     buffer.direct_.resize(all);
 
-    // Trace paths from all receivers at once, and aim at light sources.
+    // Trace paths from all receivers at once, and shadow rays from the same starts.
     for (std::size_t r = 0; r < receivers.size(); ++r) {
         const std::span starts = std::span(buffer.starts_).subspan(r * n, n);
-        set_out(receivers[r], samples.first, options.directions, tracer.options().seed, starts);
+        make_starts(receivers[r], samples.first, options.directions, tracer.options().seed, starts);
         const Vec3 normal = receivers[r].domain == Domain::sphere ? Vec3{} : receivers[r].normal;
         std::fill_n(buffer.normals_.begin() + static_cast<std::ptrdiff_t>(r * n), n, normal);
     }
     tracer.trace(buffer.starts_, buffer.normals_, buffer.incident_, scratch);
     tracer.direct(buffer.starts_, buffer.normals_, buffer.direct_, scratch);
 
-    // Turn what arrived into samples.
+    // Turn the incident light into samples.
     for (std::size_t r = 0; r < receivers.size(); ++r) {
         const std::size_t first = r * buffer.stride_;
-        Receiving receiving(receivers[r], options.directions, buffer.gathered_[r],
+        Receiving receiving(receivers[r], options, buffer.gathered_[r],
                             {&buffer.samples_, first, first + n, first + buffer.directions_});
         for (std::size_t i = 0; i < n; ++i) {
             const Vec3 direction = buffer.starts_[r * n + i].direction;

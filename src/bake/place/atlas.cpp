@@ -66,11 +66,11 @@ Status Atlas::find_placements(const AtlasOptions& options) {
 }
 
 Status Atlas::place(const AtlasOptions& options, AtlasOptions::Layout layout) {
-    AtlasLayout result;
+    ObjectPlacements result;
     if (layout == AtlasOptions::Layout::shared) {
         result = shared_layout(*world_, options);
     } else {
-        Result<AtlasLayout> packed = packed_layout(*world_, options);
+        Result<ObjectPlacements> packed = packed_layout(*world_, options);
         if (!packed) return packed.error();
         result = std::move(*packed);
     }

@@ -6,29 +6,12 @@
 #include <vector>
 
 #include "bake/place/plane.h"
+#include "lobelia/bake_job.h"
+#include "lobelia/lightmap.h"
 #include "lobelia/result.h"
 #include "scene/world.h"
 
 namespace lobelia {
-
-struct AtlasOptions {
-    std::size_t width = 512, height = 512;        ///< of a page [texels]
-    std::optional<double> texels_per_metre = {};  ///< sizes objects by area instead of keeping their common UV square
-    std::size_t padding = 2;                      ///< texels between objects that are packed
-    /// shared: all objects lie in one UV square together, without overlaps, as an unwrapper of whole scenes leaves
-    /// them. packed: each object has the UV square for itself; what it uses of it is packed into pages, at
-    /// texels_per_metre or, where that is not asked for, as large as one page can hold them. automatic: shared if
-    /// nothing overlaps between objects and no texels_per_metre is asked for.
-    enum class Layout { automatic, shared, packed } layout = Layout::automatic;
-};
-
-/// page texel = scale * uv + offset, both axes; texel centres at + 0.5, uv (0, 0) at the top left.
-struct AtlasPlacement {
-    std::uint32_t page = 0;
-    Vec2 scale, offset;
-    TexelBox texels;     ///< of the page that are the object's alone (packed), or that it shares with all (shared)
-    bool baked = false;  ///< the object has lightmap UVs
-};
 
 /// Texels are kept in tiles of k_tile x k_tile.
 inline constexpr std::size_t k_tile = 32;

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bake/place/pack.h"
+#include "bake/place/pack_rectangles.h"
 
 namespace lobelia {
 namespace {
@@ -57,17 +57,17 @@ bool fits(const Extent& e, double scale, const AtlasOptions& options) {
            texels_for(e.y1 - e.y0, scale) <= static_cast<double>(options.height);
 }
 
-AtlasLayout packed_at(const World& world, std::span<const Extent> extents, double texels_per_metre,
-                      const AtlasOptions& options) {
+ObjectPlacements packed_at(const World& world, std::span<const Extent> extents, double texels_per_metre,
+                           const AtlasOptions& options) {
     std::vector<PackedRectangle> rectangles;
     for (const Extent& e : extents) {
         const double scale = scale_at(e, texels_per_metre);
         rectangles.push_back({.width = static_cast<int>(texels_for(e.x1 - e.x0, scale)),
                               .height = static_cast<int>(texels_for(e.y1 - e.y0, scale))});
     }
-    AtlasLayout result;
-    result.pages = pack(rectangles, static_cast<int>(options.width), static_cast<int>(options.height),
-                        static_cast<int>(options.padding));
+    ObjectPlacements result;
+    result.pages = pack_rectangles(rectangles, static_cast<int>(options.width), static_cast<int>(options.height),
+                                   static_cast<int>(options.padding));
     result.placements.resize(world.has_lightmap_uv.size());
     for (std::size_t i = 0; i < extents.size(); ++i) {
         const Extent& e = extents[i];
@@ -102,8 +102,8 @@ double density_for_one_page(const World& world, std::span<const Extent> extents,
 
 }  // namespace
 
-AtlasLayout shared_layout(const World& world, const AtlasOptions& options) {
-    AtlasLayout result{std::vector<AtlasPlacement>(world.has_lightmap_uv.size()), 1};
+ObjectPlacements shared_layout(const World& world, const AtlasOptions& options) {
+    ObjectPlacements result{std::vector<AtlasPlacement>(world.has_lightmap_uv.size()), 1};
     for (std::size_t i = 0; i < result.placements.size(); ++i)
         if (world.has_lightmap_uv[i] != 0)
             result.placements[i] = {0,
@@ -114,7 +114,7 @@ AtlasLayout shared_layout(const World& world, const AtlasOptions& options) {
     return result;
 }
 
-Result<AtlasLayout> packed_layout(const World& world, const AtlasOptions& options) {
+Result<ObjectPlacements> packed_layout(const World& world, const AtlasOptions& options) {
     std::vector<Extent> extents;
     for (std::uint32_t i = 0; i < world.has_lightmap_uv.size(); ++i)
         if (world.has_lightmap_uv[i] != 0) extents.push_back(extent_of(world, i));

@@ -6,14 +6,14 @@
 namespace lobelia {
 
 /// Placements of each object, and how many pages they take.
-struct AtlasLayout {
+struct ObjectPlacements {
     std::vector<AtlasPlacement> placements;
     std::size_t pages = 0;
 };
 
 /// The whole page for all.
-[[nodiscard]] AtlasLayout shared_layout(const World& world, const AtlasOptions& options);
+[[nodiscard]] ObjectPlacements shared_layout(const World& world, const AtlasOptions& options);
 /// A rectangle for each. An error names the object that does not fit a page.
-[[nodiscard]] Result<AtlasLayout> packed_layout(const World& world, const AtlasOptions& options);
+[[nodiscard]] Result<ObjectPlacements> packed_layout(const World& world, const AtlasOptions& options);
 
 }  // namespace lobelia

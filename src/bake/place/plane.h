@@ -5,7 +5,7 @@
 #include <array>
 #include <cstddef>
 
-#include "lobelia/math.h"
+#include "lobelia/lightmap.h"
 
 namespace lobelia {
 
@@ -14,11 +14,6 @@ struct PagePoint {
     double x = 0, y = 0;
 };
 
-/// Half-open ranges of texels, [x0, x1) x [y0, y1).
-struct TexelBox {
-    int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
-    [[nodiscard]] bool empty() const { return x0 >= x1 || y0 >= y1; }
-};
 [[nodiscard]] TexelBox intersection(const TexelBox& a, const TexelBox& b);
 
 /// A convex polygon: what is left of a triangle within a box has at most 7 corners.

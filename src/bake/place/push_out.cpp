@@ -34,13 +34,13 @@ class Pusher {
   public:
     explicit Pusher(const PathTracer& tracer) : tracer_(tracer) {}
 
-    void run(std::span<const TexelReach> reach, std::span<Texel> texels);
+    void run(std::span<const TexelReach> reach, std::span<Receiver> texels);
 
   private:
     /// Whether the ray came from behind a surface that has light on its front only.
     [[nodiscard]] bool from_behind(const Hit& hit) const;
     /// Texels that see the back of anything at a first look.
-    void find_suspects(std::span<const TexelReach> reach, std::span<const Texel> texels);
+    void find_suspects(std::span<const TexelReach> reach, std::span<const Receiver> texels);
     /// Where a position goes, or nothing if it is buried for good.
     [[nodiscard]] std::optional<Vec3> moved(Vec3 position, Vec3 normal, float width) const;
     [[nodiscard]] bool sees_only_backs(Vec3 position, Vec3 normal) const;
@@ -59,7 +59,7 @@ bool Pusher::from_behind(const Hit& hit) const {
     return !material.double_sided && material.alpha_mode == Material::Alpha::opaque;
 }
 
-void Pusher::find_suspects(std::span<const TexelReach> reach, std::span<const Texel> texels) {
+void Pusher::find_suspects(std::span<const TexelReach> reach, std::span<const Receiver> texels) {
     rays_.clear();
     texel_of_ray_.clear();
     for (std::size_t i = 0; i < texels.size(); ++i) {
@@ -146,15 +146,17 @@ std::optional<Vec3> Pusher::moved(Vec3 position, Vec3 normal, float width) const
     return position;
 }
 
-void Pusher::run(std::span<const TexelReach> reach, std::span<Texel> texels) {
+void Pusher::run(std::span<const TexelReach> reach, std::span<Receiver> texels) {
     find_suspects(reach, texels);
     for (const std::size_t i : suspects_) {
         // Keep the positions that are out, or nothing of this if none are.
-        Texel result = texels[i];
+        Receiver result = texels[i];
         result.position_count = 0;
-        for (std::size_t k = 0; k < texels[i].position_count; ++k)
-            if (const auto to = moved(texels[i].positions[k], reach[i].normals[k], reach[i].width))
-                result.positions[result.position_count++] = *to;
+        for (std::size_t k = 0; k < texels[i].position_count; ++k) {
+            const auto to = moved(texels[i].positions[k], reach[i].normals[k], reach[i].width);
+            result.moved |= !to || !(*to == texels[i].positions[k]);
+            if (to) result.positions[result.position_count++] = *to;
+        }
         if (result.position_count > 0)
             texels[i] = result;
         else
@@ -164,7 +166,7 @@ void Pusher::run(std::span<const TexelReach> reach, std::span<Texel> texels) {
 
 }  // namespace
 
-void push_out(const PathTracer& tracer, std::span<const TexelReach> reach, std::span<Texel> texels) {
+void push_out(const PathTracer& tracer, std::span<const TexelReach> reach, std::span<Receiver> texels) {
     assert(reach.size() == texels.size());
     Pusher pusher(tracer);
     for (std::size_t begin = 0; begin < texels.size(); begin += k_batch) {

@@ -17,6 +17,6 @@ struct TexelReach {
 /// Moves each position that lies behind a one-sided, opaque surface less than a texel's width away to that surface's
 /// front: along its own surface to the nearest such place, or else straight up. Positions that cannot be moved and see
 /// only backs are dropped; a texel that has no other keeps them and is `buried`.
-void push_out(const PathTracer& tracer, std::span<const TexelReach> reach, std::span<Texel> texels);
+void push_out(const PathTracer& tracer, std::span<const TexelReach> reach, std::span<Receiver> texels);
 
 }  // namespace lobelia

@@ -1,4 +1,4 @@
-// Points, normals and objects of texels.
+// Start points and normals of texels.
 #include "bake/place/texels.h"
 
 #include <algorithm>
@@ -18,23 +18,23 @@ constexpr std::uint32_t k_nobody = 0xffffffff;
 /// Which triangle of the texel's chart holds each point of its pattern.
 using Holders = std::array<std::uint32_t, k_most_positions>;
 
-/// Makes the texels [begin, end) of the map, which lie on one tile.
+/// Makes receivers of texels that lie on one tile.
 class TileTexels {
   public:
     TileTexels(const Atlas& atlas, const TexelMap& map, const PathTracer& tracer)
         : atlas_(atlas), map_(map), tracer_(tracer) {}
 
-    void make(std::size_t begin, Switch push, std::span<Texel> out) {
+    void make(std::size_t begin, Switch push, std::span<Receiver> out) {
         find_holders(begin, begin + out.size());
         reach_.resize(out.size());
-        for (std::size_t i = 0; i < out.size(); ++i) out[i] = texel(begin + i, holders_[i], reach_[i]);
+        for (std::size_t i = 0; i < out.size(); ++i) out[i] = receiver(begin + i, holders_[i], reach_[i]);
         if (push == Switch::on) push_out(tracer_, reach_, out);
     }
 
   private:
     void find_holders(std::size_t begin, std::size_t end);
-    [[nodiscard]] Texel texel(std::size_t i, const Holders& holders, TexelReach& reach) const;
-    void add_position(std::size_t t, PagePoint p, Texel& texel, TexelReach& reach) const;
+    [[nodiscard]] Receiver receiver(std::size_t i, const Holders& holders, TexelReach& reach) const;
+    void add_position(std::size_t t, PagePoint p, Vec3 owner_normal, Receiver& receiver, TexelReach& reach) const;
 
     const Atlas& atlas_;
     const TexelMap& map_;
@@ -70,46 +70,45 @@ void TileTexels::find_holders(std::size_t begin, std::size_t end) {
     }
 }
 
-void TileTexels::add_position(std::size_t t, PagePoint p, Texel& texel, TexelReach& reach) const {
+void TileTexels::add_position(std::size_t t, PagePoint p, Vec3 owner_normal, Receiver& receiver,
+                              TexelReach& reach) const {
     const World& world = atlas_.world();
     const Vec3 on_surface = position_at(world, t, PageTriangle(atlas_.texel_triangle(t)).weights(p));
-    const Vec3 face = world.face_normal(t), normal = dot(face, face) > 0 ? face : texel.face_normal;
-    texel.positions[texel.position_count] = on_surface + normal * tracer_.lift(on_surface);
-    reach.normals[texel.position_count] = normal;
-    ++texel.position_count;
+    const Vec3 face = world.face_normal(t), normal = dot(face, face) > 0 ? face : owner_normal;
+    receiver.positions[receiver.position_count] = on_surface + normal * tracer_.lift(on_surface);
+    reach.normals[receiver.position_count] = normal;
+    ++receiver.position_count;
 }
 
-Texel TileTexels::texel(std::size_t i, const Holders& holders, TexelReach& reach) const {
+Receiver TileTexels::receiver(std::size_t i, const Holders& holders, TexelReach& reach) const {
     const World& world = atlas_.world();
     const std::uint32_t t = map_.triangle[i];
-    const int x = static_cast<int>(map_.texels[i].x), y = static_cast<int>(map_.texels[i].y);
+    const CoveredTexel& at = map_.texels[i];
+    Receiver result;
+    result.normal = surface_of(atlas_, map_, i).normal;
+    result.key = static_cast<std::uint32_t>((at.page * atlas_.height() + at.y) * atlas_.width() + at.x);
+    const Vec3 face = world.face_normal(t), owner_normal = dot(face, face) > 0 ? face : result.normal;
 
-    // What it is: the surface at its centre, or at the covered point nearest to that.
-    const auto [position, normal] = surface_of(atlas_, map_, i);
-    Texel result;
-    result.position = position;
-    result.normal = normal;
-    result.face_normal = world.face_normal(t);
-    if (dot(result.face_normal, result.face_normal) == 0) result.face_normal = result.normal;
-    result.object = world.object[t];
-    result.chart = atlas_.chart_of_triangle()[t];
-
-    // Where its samples start: the points of the pattern that its chart covers, or else the middle of what is covered.
+    // Start samples at the points of the pattern that the texel's chart covers, or else in the middle of its covered
+    // part.
+    const int x = static_cast<int>(at.x), y = static_cast<int>(at.y);
     reach.width = texel_width(atlas_, t);
     for (std::size_t k = 0; k < k_most_positions; ++k)
-        if (holders[k] != k_nobody) add_position(holders[k], {x + k_pattern[k].x, y + k_pattern[k].y}, result, reach);
+        if (holders[k] != k_nobody)
+            add_position(holders[k], {x + k_pattern[k].x, y + k_pattern[k].y}, owner_normal, result, reach);
     if (result.position_count == 0) {
         const PageTriangle triangle(atlas_.texel_triangle(t));
         const PagePoint centre{x + 0.5, y + 0.5};
-        add_position(t, triangle.contains(centre) ? centre : triangle.part_in(x, y).centroid(), result, reach);
+        add_position(t, triangle.contains(centre) ? centre : triangle.part_in(x, y).centroid(), owner_normal, result,
+                     reach);
     }
     return result;
 }
 
 }  // namespace
 
-void make_texels(const Atlas& atlas, const TexelMap& map, std::size_t begin, std::size_t end, const PathTracer& tracer,
-                 Switch push_out, std::vector<Texel>& out) {
+void make_receivers(const Atlas& atlas, const TexelMap& map, std::size_t begin, std::size_t end,
+                    const PathTracer& tracer, Switch push_out, std::vector<Receiver>& out) {
     assert(begin <= end && end <= map.texels.size());
     out.resize(end - begin);
     TileTexels tile(atlas, map, tracer);

@@ -1,31 +1,20 @@
-// What a texel of a lightmap is in the world: points on its triangles, smooth normals, and whether it can be lit at
-// all.
+// Texels of a lightmap as receivers in the world: points on their triangles, smooth normals, and whether light can
+// arrive there at all.
 #pragma once
 
 #include <vector>
 
 #include "bake/place/atlas.h"
+#include "bake/place/receiver.h"
 #include "trace/path_tracer.h"
 
 namespace lobelia {
 
-/// Samples of a texel start from up to this many points, spread over the part of it that its chart covers.
-inline constexpr std::size_t k_most_positions = 4;
-
-struct Texel {
-    std::array<Vec3, k_most_positions> positions;  ///< lifted off the surface, pushed out of what buried them
-    std::uint8_t position_count = 0;
-    Vec3 normal;       ///< unit, smooth, at the texel's centre or the nearest covered point
-    Vec3 face_normal;  ///< unit, of the owning triangle
-    Vec3 position;     ///< on the surface, of the centre or the nearest covered point
-    std::uint32_t object = 0, chart = 0;
-    bool buried = false;  ///< could not be pushed out: it sees back faces all around
-};
-
-/// The texels [begin, end) of the map. Always the same for the same input, whatever range they are asked in.
-/// `push_out` moves positions that lie closer than a texel's width behind another surface to its lit side.
-void make_texels(const Atlas& atlas, const TexelMap& map, std::size_t begin, std::size_t end, const PathTracer& tracer,
-                 Switch push_out, std::vector<Texel>& out);
+/// Makes the receivers of texels [begin, end) of the map: the same for the same input, whatever range they are made in.
+/// A texel's key is its place among all texels of all pages. `push_out` moves positions that lie closer than a texel's
+/// width behind another surface to that surface's lit side.
+void make_receivers(const Atlas& atlas, const TexelMap& map, std::size_t begin, std::size_t end,
+                    const PathTracer& tracer, Switch push_out, std::vector<Receiver>& out);
 
 /// The surface at the centre of texel i of the map, or at the covered point nearest to it.
 struct TexelSurface {

@@ -1,4 +1,4 @@
-// Ground truth from a camera, by paths.
+// Path-traced pictures from a camera.
 #include "bake/render/render.h"
 
 #include <cassert>
@@ -51,7 +51,7 @@ std::optional<Image> render_paths(const PathTracer& tracer, const Camera& camera
 }
 
 Camera default_camera(const World& world) {
-    // From the front, a little from the right and from above, as far off as shows a ball around everything.
+    // Look from the front, a little from the right and above, far enough to see a ball around the scene.
     Camera camera;
     const Vec3 back = normalize(Vec3{0.35f, 0.4f, 1}), right = normalize(cross({0, 1, 0}, back)),
                up = cross(back, right);

@@ -1,51 +1,37 @@
-// Pictures from a camera: the ground truth by paths, and what a bake makes of the same scene, pixel by pixel alike.
+// Pictures from a camera, of the tracer's scene: path-traced, or lit by a bake, with the same camera rays.
 #pragma once
 
-#include <atomic>
-#include <functional>
 #include <optional>
+#include <span>
 
-#include "bake/place/atlas.h"
-#include "bake/solve/pages.h"
+#include "lobelia/bake.h"
 #include "lobelia/codec.h"
-#include "lobelia/image.h"
 #include "trace/path_tracer.h"
 
 namespace lobelia {
 
-struct RenderOptions {
-    std::size_t width = 960, height = 600;  ///< at least 1, and at most 2^32 pixels in all
-    std::uint32_t samples = 64;             ///< of each pixel, over its square
-    unsigned threads = 0;                   ///< 0: all processors
-    const std::atomic<bool>* stop = nullptr;
-    std::function<void(double)> progress = {};  ///< told the share that is done; one call at a time
-};
-
-/// Radiance [W/(m^2 sr)] by path tracing: of each pixel the mean over samples of PathTracer::trace, what is emitted and
-/// what is scattered. The camera sees a surface before light meets any, so that for a picture to hold a bake with B
-/// bounces against, the tracer needs B + 1. Unlit surfaces show their base colour. The same bits for any number of
-/// threads; nothing where `stop` was set on the way.
+/// Renders by path tracing: the mean over a pixel's samples of PathTracer::trace, emitted and scattered light. The
+/// tracer counts the surface that is seen as a bounce: to compare with a bake of B bounces, trace B + 1. Nothing if
+/// `stop` was set.
 [[nodiscard]] std::optional<Image> render_paths(const PathTracer& tracer, const Camera& camera,
                                                 const RenderOptions& options = {});
 
-/// A bake's pages and what reads them.
+/// A bake's pages, and what is required to evaluate them.
 struct BakedLight {
-    std::span<const Page> pages;
-    std::span<const AtlasPlacement> placements;  ///< of each object
-    PageLayout layout;
-    const Codec* codec = nullptr;   ///< null: pages hold irradiance alone
-    bool in_tangent_frame = false;  ///< directions of the coefficients are in each texel's tangent frame
+    std::span<const LightmapPage> pages;
+    std::vector<AtlasPlacement> placements;  ///< of each object
+    PageChannels channels;
+    std::optional<Codec> codec;  ///< absent: pages hold irradiance only
+    Frame frame = Frame::world;  ///< of the coefficients
 };
+/// Returns the light of a bake, which must outlive it. An error if its codec is unknown.
+[[nodiscard]] Result<BakedLight> light_of(const Bake& bake, LightmapUv uv = LightmapUv::original);
 
-/// The same camera rays, but where they meet the front of a surface with a lightmap, its light is that of the pages:
-/// coefficients, interpolated bilinearly, read as irradiance at the shading normal for the diffuse part, and as
-/// radiance in one direction of the glossy lobe for each sample. What the pages do not hold (the background, objects
-/// without lightmap UVs, backs of double-sided surfaces) is traced as in render_paths.
-/// Precondition: one placement for each object of the tracer's scene, on pages that are there.
+/// Renders the scene lit by its bake: render(scene, bake, ...) describes how.
+/// Precondition: one placement for each object of the tracer's scene, on pages that exist.
 [[nodiscard]] std::optional<Image> render_bake(const PathTracer& tracer, const BakedLight& light, const Camera& camera,
                                                const RenderOptions& options = {});
 
-/// The camera that sees all of `world` from the front and a little above, for scenes that bring none.
 [[nodiscard]] Camera default_camera(const World& world);
 
 }  // namespace lobelia

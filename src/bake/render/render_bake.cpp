@@ -1,4 +1,4 @@
-// What a bake makes of a scene, from a camera.
+// A scene lit by its bake, from a camera.
 #include <cassert>
 #include <cmath>
 
@@ -11,12 +11,12 @@
 namespace lobelia {
 namespace {
 
-/// Pairs of the Sobol sequences; 0 is the place within the pixel.
+/// Pairs of the Sobol sequences; pair 0 is the place within the pixel.
 enum Dimension : std::uint32_t { k_base_direction = 1, k_layer_direction = 2 };
 
-/// Four texels of a page about a point, and their weights.
+/// The four texels of a page around a point, and their bilinear weights.
 struct Taps {
-    const Page* page = nullptr;
+    const LightmapPage* page = nullptr;
     std::array<std::size_t, 4> texel;
     std::array<float, 4> weight;
 
@@ -28,8 +28,8 @@ struct Taps {
     }
 };
 
-/// The texels about `p` [texels], held at the page's edges.
-Taps taps_at(const Page& page, Vec2 p) {
+/// Returns the taps at `p` [texels], clamped to the page.
+Taps taps_at(const LightmapPage& page, Vec2 p) {
     const float right = static_cast<float>(page.width - 1), bottom = static_cast<float>(page.height - 1);
     const float x = std::clamp(p.x - 0.5f, 0.0f, right), y = std::clamp(p.y - 0.5f, 0.0f, bottom);
     const auto x0 = static_cast<std::size_t>(x), y0 = static_cast<std::size_t>(y);
@@ -40,23 +40,23 @@ Taps taps_at(const Page& page, Vec2 p) {
             {(1 - fx) * (1 - fy), fx * (1 - fy), (1 - fx) * fy, fx * fy}};
 }
 
-/// A place on a baked surface, with all that shading asks.
+/// A visible point of a baked surface, and the terms of its shading.
 struct BakedPoint {
     std::uint32_t of_ray = 0;
     Taps taps;
     Vec3 normal;  ///< unit, in the world
     Rgb emission;
-    Rgb base;       ///< the diffuse part of L is this times E / pi
-    Rgb layer;      ///< the glossy part is this times L from `mirrored`
-    Vec3 mirrored;  ///< in the frame about the normal
+    Rgb base;       ///< diffuse part of L over E / pi
+    Rgb layer;      ///< specular part of L over the radiance from `mirrored`
+    Vec3 mirrored;  ///< sampled direction, in the frame of the normal
 };
 
 class BakeWorker {
   public:
     BakeWorker(const PathTracer& tracer, const CameraView& view, const BakedLight& light)
         : tracer_(&tracer), view_(&view), light_(&light), paths_(tracer) {
-        if (light.codec == nullptr) return;
-        irradiance_.emplace(light.codec->evaluator(), light.layout.coefficients);
+        if (!light.codec) return;
+        irradiance_.emplace(light.codec->evaluator(), light.channels.coefficients);
         radiance_.emplace(light.codec->basis(), light.codec->evaluator().negative());
     }
 
@@ -75,7 +75,7 @@ class BakeWorker {
   private:
     [[nodiscard]] Taps taps(const PathTracer::Hit& hit) const;
     [[nodiscard]] BakedPoint point(const Sight& sight, std::uint32_t of_ray) const;
-    void read(MutableColourView irradiance, MutableColourView mirrored);
+    void evaluate(MutableColourView irradiance, MutableColourView mirrored);
     void add_points(RenderTile& tile);
 
     const PathTracer* tracer_;
@@ -107,7 +107,7 @@ BakedPoint BakeWorker::point(const Sight& sight, std::uint32_t of_ray) const {
     p.normal = at.normal;
     p.emission = view_->surfaces().emission(triangle, u, v);
 
-    // Choose a direction for the base, which says how much the layer keeps from it, and one for the layer.
+    // Sample a direction for the base, whose albedo depends on what the layer transmits, and one for the layer.
     const Vec3 wo = Axes(tangent_from_world(at.normal)).local(sight.start.direction * -1.0f);
     const std::uint32_t seed = tracer_->options().seed;
     const auto random = [&](std::uint32_t number) { return pair(sight.start.key, sight.start.sample, number, seed); };
@@ -123,9 +123,9 @@ BakedPoint BakeWorker::point(const Sight& sight, std::uint32_t of_ray) const {
     return p;
 }
 
-/// Irradiance and the radiance from the mirrored direction, at each point.
-void BakeWorker::read(MutableColourView irradiance, MutableColourView mirrored) {
-    const std::size_t first = light_->layout.irradiance(0);
+/// Evaluates the irradiance and the radiance from the mirrored direction at each point.
+void BakeWorker::evaluate(MutableColourView irradiance, MutableColourView mirrored) {
+    const std::size_t first = light_->channels.irradiance(0);
     if (!irradiance_) {
         for (std::size_t j = 0; j < points_.size(); ++j) {
             const Taps& t = points_[j].taps;
@@ -135,16 +135,17 @@ void BakeWorker::read(MutableColourView irradiance, MutableColourView mirrored) 
         }
         return;
     }
-    block_.resize(block_floats(light_->layout.coefficients));
-    for (std::size_t plane = 0; plane < 3 * light_->layout.coefficients; ++plane)
+    block_.resize(block_floats(light_->channels.coefficients));
+    for (std::size_t plane = 0; plane < 3 * light_->channels.coefficients; ++plane)
         for (std::size_t j = 0; j < points_.size(); ++j)
             block_[plane * k_block_size + j] = points_[j].taps.value(plane);
     Directions normals(points_.size()), directions(points_.size());
     for (std::size_t j = 0; j < points_.size(); ++j) {
         const BakedPoint& p = points_[j];
         const Vec3 wi = p.mirrored == Vec3{} ? Vec3{0, 0, 1} : p.mirrored;
-        set_entry(normals.view(), j, light_->in_tangent_frame ? Vec3{0, 0, 1} : p.normal);
-        set_entry(directions.view(), j, light_->in_tangent_frame ? wi : Axes(tangent_from_world(p.normal)).world(wi));
+        set_entry(normals.view(), j, light_->frame == Frame::tangent ? Vec3{0, 0, 1} : p.normal);
+        set_entry(directions.view(), j,
+                  light_->frame == Frame::tangent ? wi : Axes(tangent_from_world(p.normal)).world(wi));
     }
     irradiance_->read(block_, normals, irradiance);
     radiance_->read(block_, directions, mirrored);
@@ -152,7 +153,7 @@ void BakeWorker::read(MutableColourView irradiance, MutableColourView mirrored) 
 
 void BakeWorker::add_points(RenderTile& tile) {
     Colours irradiance(points_.size()), mirrored(points_.size());
-    read(irradiance, mirrored);
+    evaluate(irradiance, mirrored);
     for (std::size_t j = 0; j < points_.size(); ++j) {
         const BakedPoint& p = points_[j];
         const Rgb diffuse = product(p.base, colour_at(irradiance.view(), j)) * k_over_pi;

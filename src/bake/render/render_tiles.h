@@ -1,4 +1,4 @@
-// The course of a picture: tiles of pixels in parallel, batches of rays within them.
+// Renders tiles of pixels in parallel, with batches of rays within them.
 #pragma once
 
 #include <tbb/blocked_range.h>
@@ -14,7 +14,7 @@
 
 namespace lobelia {
 
-/// Pixels of a tile, and rays of a batch.
+/// Side of a tile [pixels], and rays per batch.
 inline constexpr std::size_t k_tile_side = 8;
 inline constexpr std::size_t k_rays_at_once = 256;
 
@@ -43,8 +43,8 @@ struct RenderTile {
     }
 };
 
-/// Calls worker.shade(rays, of_ray, tile) for batches of at most k_rays_at_once rays; of_ray tells the place of each
-/// ray's pixel in the tile. `make_worker` makes one for each thread.
+/// Calls worker.shade(rays, of_ray, tile) for batches of at most k_rays_at_once rays; of_ray holds the place of each
+/// ray's pixel in the tile. `make_worker` makes a worker for each thread.
 template <class MakeWorker>
 std::optional<Image> render_tiles(const CameraRays& rays, const RenderOptions& options, const MakeWorker& make_worker) {
     Image image(options.width, options.height);
@@ -52,7 +52,7 @@ std::optional<Image> render_tiles(const CameraRays& rays, const RenderOptions& o
     const std::size_t tiles = across * ((options.height + k_tile_side - 1) / k_tile_side);
     tbb::enumerable_thread_specific<decltype(make_worker())> workers(make_worker);
     const auto stopped = [&] { return options.stop != nullptr && options.stop->load(std::memory_order_relaxed); };
-    std::mutex telling;
+    std::mutex progress_mutex;
     std::size_t done = 0;
 
     const auto render_tile = [&](std::size_t number) {
@@ -73,7 +73,7 @@ std::optional<Image> render_tiles(const CameraRays& rays, const RenderOptions& o
             }
         if (!batch.empty()) shade();
         tile.finish(options.samples, image);
-        const std::scoped_lock lock(telling);
+        const std::scoped_lock lock(progress_mutex);
         done += 1;
         if (options.progress) options.progress(static_cast<double>(done) / static_cast<double>(tiles));
     };
@@ -87,7 +87,7 @@ std::optional<Image> render_tiles(const CameraRays& rays, const RenderOptions& o
     return image;
 }
 
-/// Traces sights of Kind::paths and adds what they see; the others are somebody else's.
+/// Handles Kind::paths only: traces these sights and adds their radiance. The caller handles the rest.
 class PathShader {
   public:
     explicit PathShader(const PathTracer& tracer) : tracer_(&tracer), scratch_(tracer.make_scratch()) {}

@@ -1,4 +1,4 @@
-// Files of states. All numbers are little-endian, as in memory on every machine that this runs on.
+// Files of states. All numbers are little-endian, as in memory.
 #include "bake/session/checkpoint.h"
 
 #include <fmt/format.h>
@@ -59,12 +59,12 @@ Result<RegionStates> RegionStates::read(const std::filesystem::path& path) {
     std::ifstream file(path, std::ios::binary);
     if (!file) return bad(fmt::format("cannot be opened: {}", std::generic_category().message(errno)));
 
-    // The header first: nothing is allocated for a file that is not one of ours.
+    // Read the header first: allocate nothing for a file that is not a checkpoint.
     FileHeader start;
     std::array<char, k_header_floats * sizeof(float)> begin{};
-    if (!file.read(begin.data(), begin.size())) return bad("this checkpoint is cut off");
+    if (!file.read(begin.data(), begin.size())) return bad("this checkpoint is truncated");
     std::memcpy(&start, begin.data(), sizeof start);
-    if (start.magic != k_magic) return bad("this is no checkpoint of Lobelia's");
+    if (start.magic != k_magic) return bad("this is not a checkpoint of Lobelia");
     if (start.version != k_version)
         return bad(
             fmt::format("this checkpoint has version {}; this program reads version {}", start.version, k_version));
@@ -74,15 +74,20 @@ Result<RegionStates> RegionStates::read(const std::filesystem::path& path) {
     const RegionHeader& region = start.region;
     if (region.floats == 0 || region.sites > most_floats / region.floats ||
         size != sizeof(float) * (k_header_floats + region.sites * region.floats))
-        return bad("this checkpoint is cut off or damaged: its size is not what its header says");
+        return bad("this checkpoint is truncated or damaged: its size does not match its header");
 
     RegionStates result(region.sites, region.floats);
     result.header = region;
     const auto states = result.states();
     if (!file.read(reinterpret_cast<char*>(states.data()), static_cast<std::streamsize>(states.size_bytes())))
-        return bad("this checkpoint is cut off");
+        return bad("this checkpoint is truncated");
     if (checksum(region, states) != start.checksum) return bad("this checkpoint is damaged: its checksum is wrong");
     return result;
+}
+
+Error earlier_checkpoint(const std::filesystem::path& region_file) {
+    return Error{region_file.string() +
+                 ": is the checkpoint of an earlier bake; continue it with --resume, or remove it"};
 }
 
 std::filesystem::path region_file(const std::filesystem::path& folder, std::size_t region) {

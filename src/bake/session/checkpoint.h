@@ -1,4 +1,4 @@
-// The states of one region as they are kept in memory and in a file: written whole or not at all, with a checksum.
+// The states of one region, in memory and in a file that is written whole or not at all, with a checksum.
 #pragma once
 
 #include <cstdint>
@@ -10,23 +10,23 @@
 
 namespace lobelia {
 
-/// What a file of states belongs to, and how far it is.
+/// The bake that a file of states belongs to, and its progress.
 struct RegionHeader {
     std::uint64_t bake = 0;        ///< state_hash
-    std::uint64_t texels = 0;      ///< hash of the texel indices, in order
+    std::uint64_t texels = 0;      ///< hash_of_texels
     std::uint64_t sites = 0;       ///< number of texels
-    std::uint32_t floats = 0;      ///< of each
-    std::uint32_t first_pass = 0;  ///< the passes that are in
+    std::uint32_t floats = 0;      ///< per texel
+    std::uint32_t first_pass = 0;  ///< passes [first_pass, end_pass) are done
     std::uint32_t end_pass = 0;
     std::uint32_t samples_per_pass = 0;
     std::uint32_t shard_by = 0, shard_index = 0, shard_count = 1;  ///< Shard
-    std::uint32_t first_place = 0, end_place = 0;                  ///< tiles: places in the shard's list
+    std::uint32_t first_place = 0, end_place = 0;                  ///< tiles: places in the plan's list
     std::uint32_t reserved = 0;
     std::uint64_t rays = 0;
     double seconds = 0;
 };
 
-/// One allocation that starts with the file's header, so that it can be written as it is.
+/// Header and states in one allocation, so that they are written without a copy.
 class RegionStates {
   public:
     RegionStates() = default;
@@ -36,7 +36,7 @@ class RegionStates {
     [[nodiscard]] std::span<float> states();
     [[nodiscard]] std::span<const float> states() const;
 
-    /// Atomically, over what is there.
+    /// Writes the file atomically and replaces an older one.
     [[nodiscard]] Status write(const std::filesystem::path& path);
     /// Errors name the file and what is wrong: cut off, damaged, of another version.
     [[nodiscard]] static Result<RegionStates> read(const std::filesystem::path& path);
@@ -45,6 +45,12 @@ class RegionStates {
     std::vector<float> storage_;
 };
 
+/// Where a bake's folder keeps its states.
+[[nodiscard]] inline std::filesystem::path checkpoint_folder(const std::filesystem::path& bake) {
+    return bake / "checkpoint";
+}
+/// The error of starting afresh where a file of states is.
+[[nodiscard]] Error earlier_checkpoint(const std::filesystem::path& region_file);
 [[nodiscard]] std::filesystem::path region_file(const std::filesystem::path& folder, std::size_t region);
 
 }  // namespace lobelia

@@ -1,13 +1,16 @@
-// Shards of a bake, put together again.
+// Merging of shards' checkpoints into the checkpoint of the whole bake.
 #pragma once
 
-#include "bake/baker.h"
+#include <filesystem>
+
+#include "bake/session/setup.h"
 
 namespace lobelia {
 
-/// Writes the checkpoint of the whole `bake` (into its options' folder) from those of its shards; Baker::run then
-/// resumes it and finds nothing left to do. Tiles are copied, bit by bit; sums of samples are added in the order given.
-/// An error where a shard is missing, given twice, unfinished or of another bake.
-[[nodiscard]] Status merge_shards(const Baker& bake, std::span<const std::filesystem::path> checkpoints);
+/// Writes the states of the whole bake into the folder `checkpoint` from those in its shards' checkpoint folders. Tiles
+/// are copied bit by bit; sums of samples are added in the order given. An error if a shard is missing, given twice,
+/// unfinished or of another bake; then nothing is left behind.
+[[nodiscard]] Status merge_shards(const BakeSetup& bake, std::span<const std::filesystem::path> shards,
+                                  const std::filesystem::path& checkpoint);
 
 }  // namespace lobelia

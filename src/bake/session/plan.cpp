@@ -41,13 +41,13 @@ Result<BakePlan> make_plan(const TexelMap& map, const BakeOptions& options, std:
 
     plan.tiles = tiles_of(map, shard);
 
-    // Fill one region after another up to the memory that is left.
+    // Fill one region after another with the tiles that fit the remaining memory.
     constexpr std::size_t most_in_tile = k_tile * k_tile;
     if (options.memory < bytes_always + most_in_tile * bytes_per_texel)
         return Error{
-            fmt::format("--memory: {} MiB do not hold this bake; it takes {} MiB for the scene and its pages and "
-                        "{} bytes for each of {} texels, of which a part may wait",
-                        options.memory >> 20, (bytes_always >> 20) + 1, bytes_per_texel, map.texels.size())};
+            fmt::format("--memory {} MiB is too small: scene and pages need {} MiB, plus {} bytes per texel for at "
+                        "least one tile of {} texels",
+                        options.memory >> 20, (bytes_always >> 20) + 1, bytes_per_texel, most_in_tile)};
     const std::size_t most = (options.memory - bytes_always) / bytes_per_texel;
     std::size_t inside = 0;
     for (std::uint32_t place = 0; place < plan.tiles.size(); ++place) {
@@ -60,7 +60,7 @@ Result<BakePlan> make_plan(const TexelMap& map, const BakeOptions& options, std:
         inside += size;
         plan.regions.back().end = place + 1;
     }
-    // A shard without tiles says so in a region without any.
+    // Give a shard without tiles one empty region.
     if (plan.regions.empty()) plan.regions.push_back({});
     return plan;
 }

@@ -9,9 +9,9 @@
 #include "bake/solve/coefficient_blocks.h"
 
 namespace lobelia {
-std::vector<Rgb> page_irradiance(const Page& page, const PageLayout& layout, std::span<const Vec3> normals, Frame frame,
-                                 const Evaluator& evaluator) {
-    assert(normals.size() == page.size() && page.planes.size() == layout.channels());
+std::vector<Rgb> page_irradiance(const LightmapPage& page, const PageChannels& channels, std::span<const Vec3> normals,
+                                 Frame frame, const Evaluator& evaluator) {
+    assert(normals.size() == page.size() && page.planes.size() == channels.count());
     std::vector<Rgb> result(page.size());
     const auto read = [&](std::size_t begin, std::size_t end) {
         // Where nothing was baked, any direction will do.
@@ -19,12 +19,12 @@ std::vector<Rgb> page_irradiance(const Page& page, const PageLayout& layout, std
         const auto is_baked = [&](std::size_t i) { return !(normals[i] == Vec3{}); };
         for (std::size_t i = begin; i < end; ++i)
             set_entry(directions.view(), i - begin, frame == Frame::world && is_baked(i) ? normals[i] : Vec3{0, 0, 1});
-        std::vector<float> block(block_floats(layout.coefficients));
-        for (std::size_t plane = 0; plane < 3 * layout.coefficients; ++plane)
+        std::vector<float> block(block_floats(channels.coefficients));
+        for (std::size_t plane = 0; plane < 3 * channels.coefficients; ++plane)
             std::copy_n(page.planes[plane].begin() + static_cast<std::ptrdiff_t>(begin), end - begin,
                         block.begin() + static_cast<std::ptrdiff_t>(plane * k_block_size));
         Colours values(end - begin);
-        IrradianceReader(evaluator, layout.coefficients).read(block, directions, values);
+        IrradianceReader(evaluator, channels.coefficients).read(block, directions, values);
         for (std::size_t i = begin; i < end; ++i)
             if (is_baked(i)) result[i] = colour_at(values.view(), i - begin);
     };

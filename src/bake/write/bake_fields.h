@@ -1,8 +1,8 @@
 // The options and the statistics of a bake, field by field, as bake.json has them.
 #pragma once
 
-#include "bake/baker.h"
 #include "bake/write/json_fields.h"
+#include "lobelia/bake.h"
 
 namespace lobelia {
 

@@ -1,14 +1,14 @@
-// A bake as a folder, written together and read again.
-#include "bake/write/bake_folder.h"
-
+// A bake as a folder: all files are written together, and read again.
 #include <fmt/format.h>
 
 #include "bake/write/bake_fields.h"
 #include "bake/write/files_together.h"
+#include "bake/write/manifest.h"
 #include "bake/write/page_files.h"
 #include "bake/write/page_textures.h"
 #include "bake/write/probe_files.h"
 #include "bake/write/scene_copy.h"
+#include "lobelia/bake.h"
 
 namespace lobelia {
 namespace {
@@ -25,9 +25,9 @@ Status add_pages(FilesTogether& files, const Bake& bake, const PageTextures& tex
                                            k_frame_names[static_cast<std::size_t>(manifest.options.frame)]);
     manifest.pages.clear();
     for (std::size_t i = 0; i < bake.pages.size(); ++i) {
-        BakedPage& baked = manifest.pages.emplace_back(BakedPage{fmt::format("page-{}.exr", i), {}, {}});
+        PageEntry& baked = manifest.pages.emplace_back(PageEntry{fmt::format("page-{}.exr", i), {}, {}});
         auto status = files.add(baked.file, [&](StagedFile& file) {
-            return write_page(file, bake.pages[i], bake.layout(), bake.normals[i], {manifest.precision});
+            return write_page(file, bake.pages[i], bake.channels(), bake.normals[i], {manifest.precision});
         });
         if (status) status = textures.add(files, bake.pages[i], origin, baked);
         if (!status) return status;
@@ -46,7 +46,7 @@ Status add_probes(FilesTogether& files, const Bake& bake, Manifest& manifest) {
 }
 
 Status add_scene(FilesTogether& files, const Scene& scene, Manifest& manifest) {
-    // A bake is worth more than the copy: where glTF cannot hold the scene, say so and go on.
+    // Without a copy the bake is still useful: where glTF cannot hold the scene, warn and go on.
     manifest.scene.reset();
     const auto copy = encode_scene_copy(scene, manifest);
     if (!copy) {
@@ -63,7 +63,7 @@ Status add_scene(FilesTogether& files, const Scene& scene, Manifest& manifest) {
 
 }  // namespace
 
-Status write_bake(const fs::path& folder, const Bake& bake, const WriteBakeOptions& options) {
+Result<Manifest> write_bake(const fs::path& folder, const Bake& bake, const WriteBakeOptions& options) {
     assert(bake.pages.size() == bake.normals.size());
     const auto textures = PageTextures::make(bake.manifest.options.codec, options.storages);
     if (!textures) return textures.error();
@@ -74,16 +74,17 @@ Status write_bake(const fs::path& folder, const Bake& bake, const WriteBakeOptio
     if (status) status = add_probes(*files, bake, manifest);
     if (status && options.scene != nullptr) status = add_scene(*files, *options.scene, manifest);
     if (status) status = files->add_text(k_manifest_name, to_json_text(manifest));
-    return status ? files->commit() : status;
+    if (status) status = files->commit();
+    return status ? Result<Manifest>(std::move(manifest)) : status.error();
 }
 
 Result<Bake> read_bake(const fs::path& path) {
     auto manifest = read_manifest(path);
     if (!manifest) return manifest.error();
     const fs::path folder = bake_folder(path);
-    Bake bake{*std::move(manifest), {}, {}, {}};
+    Bake bake{.manifest = *std::move(manifest)};
     for (const auto& baked : bake.manifest.pages) {
-        auto page = read_page(folder / baked.file, bake.layout(), bake.manifest.width, bake.manifest.height);
+        auto page = read_page(folder / baked.file, bake.channels(), bake.manifest.width, bake.manifest.height);
         if (!page) return page.error();
         bake.pages.push_back(std::move(page->page));
         bake.normals.push_back(std::move(page->normals));

@@ -5,27 +5,25 @@
 #include <string_view>
 #include <vector>
 
+#include "io/folders.h"
 #include "io/staged_file.h"
 
 namespace lobelia {
 
-/// Unless committed it leaves nothing behind: no file, nor a folder that it made.
+/// Files that are staged together; unless they are committed, neither files nor folders made here are left behind.
 class FilesTogether {
   public:
     /// Makes the folder if it is missing.
     [[nodiscard]] static Result<FilesTogether> in(const std::filesystem::path& folder);
-    FilesTogether(FilesTogether&& other) noexcept;
-    FilesTogether& operator=(FilesTogether&&) = delete;
-    ~FilesTogether();
 
-    /// A file that `write(StagedFile&)` fills, which returns a Status.
+    /// Adds a file that `write(StagedFile&)` fills; `write` returns a Status.
     template <class Write>
     [[nodiscard]] Status add(const std::string& name, const Write& write) {
         auto file = StagedFile::create(folder_ / name);
         if (!file) return file.error();
         if (Status status = write(*file); !status) return status;
         if (Status status = file->flush(); !status) return status;
-        // A process may not hold many files open.
+        // Keep few files open: a process may hold a limited number.
         constexpr std::size_t k_most_open = 64;
         if (files_.size() >= k_most_open)
             if (Status status = file->close(); !status) return status;
@@ -33,15 +31,14 @@ class FilesTogether {
         return Done{};
     }
     [[nodiscard]] Status add_text(const std::string& name, std::string_view text);
-    /// Puts them in place, in the order in which they were added.
+    /// Puts the files in place, in the order in which they were added.
     [[nodiscard]] Status commit();
 
   private:
-    FilesTogether(std::filesystem::path folder, std::filesystem::path made)
-        : folder_(std::move(folder)), made_(std::move(made)) {}
+    FilesTogether(std::filesystem::path folder, MadeFolder made) : folder_(std::move(folder)), made_(std::move(made)) {}
 
     std::filesystem::path folder_;
-    std::filesystem::path made_;  ///< the folder, if it is new and still to be removed
+    MadeFolder made_;  ///< before the files: they are removed first
     std::vector<StagedFile> files_;
 };
 

@@ -5,11 +5,12 @@
 
 #include "bake/solve/page_irradiance.h"
 #include "bake/write/files_together.h"
+#include "io/write_image.h"
 
 namespace lobelia {
 namespace {
 
-Status write_page_irradiance(StagedFile& file, const Page& page, std::span<const Vec3> normals,
+Status write_page_irradiance(StagedFile& file, const LightmapPage& page, std::span<const Vec3> normals,
                              std::span<const Rgb> irradiance) {
     std::vector<float> validity(page.size());
     for (std::size_t i = 0; i < page.size(); ++i)
@@ -22,11 +23,11 @@ Status write_page_irradiance(StagedFile& file, const Page& page, std::span<const
 }
 
 /// The irradiance planes.
-std::vector<Rgb> plain_irradiance(const Page& page, const PageLayout& layout) {
+std::vector<Rgb> plain_irradiance(const LightmapPage& page, const PageChannels& channels) {
     std::vector<Rgb> result(page.size());
     for (std::size_t i = 0; i < page.size(); ++i)
-        result[i] = {page.planes[layout.irradiance(0)][i], page.planes[layout.irradiance(1)][i],
-                     page.planes[layout.irradiance(2)][i]};
+        result[i] = {page.planes[channels.irradiance(0)][i], page.planes[channels.irradiance(1)][i],
+                     page.planes[channels.irradiance(2)][i]};
     return result;
 }
 
@@ -52,9 +53,9 @@ Result<std::vector<std::filesystem::path>> write_irradiance(const std::filesyste
     if (!files) return files.error();
     std::vector<std::filesystem::path> paths;
     for (std::size_t i = 0; i < bake.pages.size(); ++i) {
-        const auto irradiance = evaluator ? page_irradiance(bake.pages[i], bake.layout(), bake.normals[i],
+        const auto irradiance = evaluator ? page_irradiance(bake.pages[i], bake.channels(), bake.normals[i],
                                                             bake.manifest.options.frame, *evaluator)
-                                          : plain_irradiance(bake.pages[i], bake.layout());
+                                          : plain_irradiance(bake.pages[i], bake.channels());
         const std::string& file_name = bake.manifest.pages[i].file;
         paths.push_back(folder / file_name);
         auto status = files->add(file_name, [&](StagedFile& file) {

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "bake/write/bake_folder.h"
+#include "lobelia/bake.h"
 
 namespace lobelia {
 

@@ -41,6 +41,12 @@ class JsonFieldWriter {
         fields(inner, value);
         object[name] = std::move(inner.object);
     }
+    /// Absent groups are null.
+    template <class T>
+    void group(const char* name, std::optional<T>& value) {
+        object[name] = nullptr;
+        if (value) group(name, *value);
+    }
 
     nlohmann::ordered_json object = nlohmann::ordered_json::object();
 };
@@ -83,6 +89,10 @@ class JsonFieldReader {
             JsonFieldReader inner(*found);
             fields(inner, value);
         }
+    }
+    template <class T>
+    void group(const char* name, std::optional<T>& value) {
+        if (place_.find(name)) group(name, value.emplace());
     }
 
   private:

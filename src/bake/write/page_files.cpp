@@ -41,60 +41,60 @@ Status check_values(const std::filesystem::path& path, const ExrPlanes& file, st
 
 }  // namespace
 
-std::vector<std::string> page_channel_names(const PageLayout& layout) {
-    std::vector<std::string> names = layout.names();
+std::vector<std::string> page_channel_names(const PageChannels& channels) {
+    std::vector<std::string> names = channels.names();
     for (const char* name : {"validity", "chart", "N.x", "N.y", "N.z"}) names.emplace_back(name);
     return names;
 }
 
-Status write_page(StagedFile& file, const Page& page, const PageLayout& layout, std::span<const Vec3> normals,
-                  const ExrOptions& options) {
-    assert(page.planes.size() == layout.channels() && normals.size() == page.size());
+Status write_page(StagedFile& file, const LightmapPage& page, const PageChannels& channels,
+                  std::span<const Vec3> normals, const ExrOptions& options) {
+    assert(page.planes.size() == channels.count() && normals.size() == page.size());
     if (std::any_of(page.chart.begin(), page.chart.end(), [](std::uint32_t c) { return c > k_most_charts; }))
         return Error{fmt::format("more than {} charts cannot be written", k_most_charts)};
     const std::vector<float> chart(page.chart.begin(), page.chart.end());
 
-    const auto names = page_channel_names(layout);
-    std::vector<ExrChannel> channels;
-    for (std::size_t i = 0; i < layout.channels(); ++i) channels.push_back({names[i], page.planes[i]});
-    channels.push_back({"validity", page.validity});
-    channels.push_back({"chart", chart, 1, ExrOptions::Precision::full});
+    const auto names = page_channel_names(channels);
+    std::vector<ExrChannel> planes;
+    for (std::size_t i = 0; i < channels.count(); ++i) planes.push_back({names[i], page.planes[i]});
+    planes.push_back({"validity", page.validity});
+    planes.push_back({"chart", chart, 1, Precision::full});
     // Components are interleaved in memory.
     static_assert(sizeof(Vec3) == 3 * sizeof(float));
     const std::span<const float> floats(normals.empty() ? nullptr : &normals[0].x, 3 * normals.size());
     for (std::size_t k = 0; k < 3 && !normals.empty(); ++k)
-        channels.push_back({names[layout.channels() + 2 + k], floats.subspan(k), 3});
-    return write_exr(file, page.width, page.height, channels, options);
+        planes.push_back({names[channels.count() + 2 + k], floats.subspan(k), 3});
+    return write_exr(file, page.width, page.height, planes, options);
 }
 
-Result<PageFile> read_page(const std::filesystem::path& path, const PageLayout& layout, std::size_t width,
-                           std::size_t height) {
+Result<PageContent> read_page(const std::filesystem::path& path, const PageChannels& channels, std::size_t width,
+                              std::size_t height) {
     // Read what should be there.
-    ReadChannelsOptions options{.wanted = page_channel_names(layout), .most_pixels = width * height};
+    ReadChannelsOptions options{.wanted = page_channel_names(channels), .most_pixels = width * height};
     auto file = read_exr_channels(path, options);
     if (!file) return file.error();
     if (file->width != width || file->height != height)
         return Error{fmt::format("{}: {} x {} texels, but the manifest says {} x {}", path.string(), file->width,
                                  file->height, width, height)};
-    const std::size_t channels = layout.channels();
-    if (auto status = check_values(path, *file, channels); !status) return status.error();
+    const std::size_t count = channels.count();
+    if (auto status = check_values(path, *file, count); !status) return status.error();
 
     // Take the planes over.
-    PageFile result;
-    Page& page = result.page;
+    PageContent result;
+    LightmapPage& page = result.page;
     page.width = width;
     page.height = height;
-    page.validity = std::move(file->planes[channels]);
-    page.chart.assign(file->planes[channels + 1].begin(), file->planes[channels + 1].end());
+    page.validity = std::move(file->planes[count]);
+    page.chart.assign(file->planes[count + 1].begin(), file->planes[count + 1].end());
     result.normals.resize(page.size());
-    const auto* normal = &file->planes[channels + 2];
+    const auto* normal = &file->planes[count + 2];
     for (std::size_t i = 0; i < page.size(); ++i) {
         const Vec3 n{normal[0][i], normal[1][i], normal[2][i]};
         // Halves are off by up to 2^-12; what is of unit length but for rounding stays as it is.
         const float off = std::abs(dot(n, n) - 1);
         result.normals[i] = length(n) > 0 && off > 1e-6f ? normalize(n) : n;
     }
-    file->planes.resize(channels);
+    file->planes.resize(count);
     page.planes = std::move(file->planes);
     return result;
 }

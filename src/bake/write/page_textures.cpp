@@ -12,7 +12,7 @@ namespace {
 
 using Metadata = std::map<std::string, std::string>;
 
-Metadata metadata_of(const BakedTexture& texture, const std::string& origin) {
+Metadata metadata_of(const TextureEntry& texture, const std::string& origin) {
     std::string channels;
     for (const StoredChannel& channel : texture.layout.channels)
         channels += (channels.empty() ? "" : "\n") + channel_text(channel);
@@ -28,8 +28,8 @@ Status write_texture(StagedFile& file, const PackedTexture& packed, Metadata met
     return write_ktx2(file, {packed.format, packed.width, packed.height, packed.data, std::move(metadata)});
 }
 
-/// Shares of [0, 1] in 8 bits.
-PackedTexture packed_validity(const Page& page) {
+/// Fractions in [0, 1] as 8 bits.
+PackedTexture packed_validity(const LightmapPage& page) {
     PackedTexture packed{"validity", PixelFormat::r8, page.width, page.height, 1, {}};
     packed.data.resize(byte_size(packed.format, page.width, page.height));
     const float* channel = page.validity.data();
@@ -44,7 +44,7 @@ Result<PageTextures> PageTextures::make(const std::string& codec,
     PageTextures textures;
     if (codec.empty()) {
         if (storages && !storages->empty())
-            return Error{"storage \"" + storages->front() + "\": irradiance alone has no coefficients to be stored"};
+            return Error{"storage \"" + storages->front() + "\": plain irradiance has no coefficients to store"};
         return textures;
     }
     const auto made = make_codec(codec);
@@ -60,22 +60,23 @@ Result<PageTextures> PageTextures::make(const std::string& codec,
     return textures;
 }
 
-Status PageTextures::add(FilesTogether& files, const Page& page, const std::string& origin, BakedPage& baked) const {
+Status PageTextures::add(FilesTogether& files, const LightmapPage& page, const std::string& origin,
+                         PageEntry& entry) const {
     if (storages_.empty()) return Done{};
-    const std::string stem = std::filesystem::path(baked.file).stem().string();
+    const std::string stem = std::filesystem::path(entry.file).stem().string();
     const CoefficientPlanes planes(page.width, page.height, std::span(page.planes), traits_.count);
     for (const Storage* storage : storages_) {
         const auto take = [&](const TextureLayout::Texture& layout, const PackedTexture& packed) {
             const std::string file = fmt::format("{}.{}.{}.ktx2", stem, storage->name, layout.name);
-            const BakedTexture& texture =
-                baked.textures.emplace_back(BakedTexture{std::string(storage->name), file, layout, packed.scale});
+            const TextureEntry& texture =
+                entry.textures.emplace_back(TextureEntry{std::string(storage->name), file, layout, packed.scale});
             return files.add(
                 file, [&](StagedFile& staged) { return write_texture(staged, packed, metadata_of(texture, origin)); });
         };
         if (Status status = pack_each(storage->layout(traits_), planes, take); !status) return status;
     }
-    baked.validity = stem + ".validity.ktx2";
-    return files.add(*baked.validity, [&](StagedFile& staged) {
+    entry.validity = stem + ".validity.ktx2";
+    return files.add(*entry.validity, [&](StagedFile& staged) {
         return write_texture(staged, packed_validity(page),
                              {{"lobelia.channels", "validity"}, {"lobelia.origin", origin}});
     });

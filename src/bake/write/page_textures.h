@@ -1,28 +1,29 @@
-// Lightmap pages as textures for GPUs: the coefficients as storages lay them out, and the validity beside them.
+// Lightmap pages as textures for GPUs: coefficients in the layouts of storages, and validity.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "bake/solve/pages.h"
 #include "bake/write/files_together.h"
-#include "bake/write/manifest.h"
+#include "lobelia/bake.h"
+#include "lobelia/lightmap.h"
 #include "lobelia/storage.h"
 
 namespace lobelia {
 
-/// In which textures the pages of a bake are written.
+/// The textures of a bake's pages.
 class PageTextures {
   public:
-    /// `storages` by name, absent for default_storages(). An error for one that does not suit the codec, or for any
-    /// where there is no codec.
+    /// Storages by name; absent: default_storages(). An error for a storage that is not usable with the codec, and for
+    /// any without a codec.
     [[nodiscard]] static Result<PageTextures> make(const std::string& codec,
                                                    const std::optional<std::vector<std::string>>& storages);
 
-    /// Writes page-N.STORAGE.TEXTURE.ktx2 and page-N.validity.ktx2, packed one at a time, and enters them in `baked`,
-    /// whose own file has a name already. `origin` is a text for whoever finds a file alone: codec and frame.
-    [[nodiscard]] Status add(FilesTogether& files, const Page& page, const std::string& origin, BakedPage& baked) const;
+    /// Writes page-N.STORAGE.TEXTURE.ktx2 and page-N.validity.ktx2, packed one at a time, and enters them in `entry`,
+    /// whose page file has a name already. `origin` goes into the files' metadata: codec and frame.
+    [[nodiscard]] Status add(FilesTogether& files, const LightmapPage& page, const std::string& origin,
+                             PageEntry& entry) const;
 
   private:
     std::vector<const Storage*> storages_;

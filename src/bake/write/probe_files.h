@@ -5,8 +5,8 @@
 #include <string>
 #include <string_view>
 
-#include "bake/probes/probes.h"
 #include "io/staged_file.h"
+#include "lobelia/lightmap.h"
 
 namespace lobelia {
 

@@ -84,7 +84,7 @@ class KnownTextures {
     std::map<std::string, Textures> textures_;
 };
 
-BakedTexture read_texture(const JsonPlace& place, KnownTextures& known) {
+TextureEntry read_texture(const JsonPlace& place, KnownTextures& known) {
     // What the channels hold follows from the storage. Should that change one day, old files must not be misread.
     const TextureLayout::Texture& layout = known.at(place);
     place.expect(nlohmann::json::parse(texture_json(layout)));
@@ -92,8 +92,8 @@ BakedTexture read_texture(const JsonPlace& place, KnownTextures& known) {
     return {place.at("storage").text(), place.at("file").file_name(), layout, scale};
 }
 
-BakedPage read_page_entry(const JsonPlace& place, KnownTextures& known) {
-    BakedPage page{place.at("file").file_name(), {}, {}};
+PageEntry read_page_entry(const JsonPlace& place, KnownTextures& known) {
+    PageEntry page{place.at("file").file_name(), {}, {}};
     for (const auto& texture : place.at("textures").list(k_most_textures))
         page.textures.push_back(read_texture(texture, known));
     if (const auto validity = place.find("validity")) page.validity = validity->file_name();
@@ -105,8 +105,8 @@ void read_layout(const JsonPlace& layout, Manifest& m) {
     m.height = layout.at("height").whole(1, k_most_side);
     m.options.atlas.width = m.width;
     m.options.atlas.height = m.height;
-    m.precision = static_cast<ExrOptions::Precision>(layout.at("precision").one_of(k_precision_names));
-    const auto names = page_channel_names(PageLayout{m.coefficients});
+    m.precision = static_cast<Precision>(layout.at("precision").one_of(k_precision_names));
+    const auto names = page_channel_names(PageChannels{m.coefficients});
     const auto channels = layout.at("channels").list_of(names.size());
     for (std::size_t i = 0; i < names.size(); ++i)
         if (channels[i].text() != names[i]) channels[i].refuse(fmt::format("not \"{}\"", names[i]));

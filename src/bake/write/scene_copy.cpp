@@ -1,6 +1,8 @@
 // The baked scene as glTF, ready to be shown with its lightmaps.
 #include "bake/write/scene_copy.h"
 
+#include "bake/write/manifest.h"
+
 #include <cassert>
 #include <nlohmann/json.hpp>
 

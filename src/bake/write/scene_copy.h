@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "bake/write/manifest.h"
+#include "lobelia/bake.h"
 
 namespace lobelia {
 

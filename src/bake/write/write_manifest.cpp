@@ -16,20 +16,20 @@ constexpr const char* k_version = LOBELIA_VERSION;
 
 ordered_json or_null(const std::optional<std::string>& text) { return text ? ordered_json(*text) : ordered_json(); }
 
-ordered_json to_json(const BakedTexture& texture) {
+ordered_json to_json(const TextureEntry& texture) {
     ordered_json json = {{"storage", texture.storage}, {"file", texture.file}, {"scale", shortest(texture.scale)}};
     json.update(ordered_json::parse(texture_json(texture.layout)));
     return json;
 }
 
-ordered_json to_json(const BakedPage& page) {
+ordered_json to_json(const PageEntry& page) {
     ordered_json textures = ordered_json::array();
     for (const auto& texture : page.textures) textures.push_back(to_json(texture));
     return {{"file", page.file}, {"textures", std::move(textures)}, {"validity", or_null(page.validity)}};
 }
 
 /// In double precision, page uv = uv_scale * uv + uv_offset gives back the placement exactly.
-ordered_json to_json(const BakedObject& object, const Manifest& m) {
+ordered_json to_json(const ObjectEntry& object, const Manifest& m) {
     const AtlasPlacement& p = object.placement;
     if (!p.baked) return {{"name", object.name}, {"page", nullptr}};
     const auto width = static_cast<double>(m.width), height = static_cast<double>(m.height);
@@ -63,8 +63,7 @@ ordered_json all_fields(T value) {
 
 }  // namespace
 
-Manifest make_manifest(const Scene& scene, const Atlas& atlas, const BakeOptions& options,
-                       const BakeStatistics& statistics) {
+Manifest make_manifest(const Scene& scene, const Atlas& atlas, const BakeOptions& options) {
     Manifest m;
     m.program = k_version;
     m.scene_name = scene.name;
@@ -75,7 +74,6 @@ Manifest make_manifest(const Scene& scene, const Atlas& atlas, const BakeOptions
     for (std::size_t i = 0; i < scene.objects.size(); ++i)
         m.objects.push_back({scene.objects[i].name, atlas.placements()[i]});
     m.options = options;
-    m.statistics = statistics;
     return m;
 }
 
@@ -104,7 +102,7 @@ std::string to_json_text(const Manifest& m) {
                                     {{"width", m.width},
                                      {"height", m.height},
                                      {"precision", k_precision_names[static_cast<std::size_t>(m.precision)]},
-                                     {"channels", page_channel_names(PageLayout{m.coefficients})},
+                                     {"channels", page_channel_names(PageChannels{m.coefficients})},
                                      {"pages", std::move(pages)}}},
                                    {"objects", std::move(objects)},
                                    {"probes", or_null(m.probes)},

@@ -96,7 +96,7 @@ std::vector<std::vector<Rgb>> through_storage(const Storage& storage, const Coef
 
 class BakeStudy {
   public:
-    BakeStudy(const Baker& baker, const BakeStudyOptions& options) : baker_(baker), options_(options) {}
+    BakeStudy(const BakeSetup& setup, const BakeStudyOptions& options) : setup_(setup), options_(options) {}
 
     [[nodiscard]] Status find_methods() {
         for (const auto& basis_name : options_.bases.empty() ? basis_names() : options_.bases) {
@@ -121,7 +121,7 @@ class BakeStudy {
 
     void run(const std::atomic<bool>& stop, const std::function<void(double)>& progress) {
         const bool blocks = !options_.storages.empty();
-        const auto units = all_units(baker_.texels(), blocks);
+        const auto units = all_units(setup_.map, blocks);
         const std::size_t wanted = blocks ? (options_.texels + k_block_texels - 1) / k_block_texels : options_.texels;
         const std::size_t count = std::min(wanted, units.size());
         parts_.resize(count);
@@ -152,7 +152,7 @@ class BakeStudy {
     /// Adds to the sums of each evaluator.
     void compare(const Subject& method, std::span<const Rgb> c, ColourView truth, std::span<Sums> sums) const;
 
-    const Baker& baker_;
+    const BakeSetup& setup_;
     const BakeStudyOptions& options_;
     Directions normals_ = tilted_normals();
     std::vector<Subject> methods_;
@@ -161,13 +161,13 @@ class BakeStudy {
 };
 
 Encoded BakeStudy::encode(std::size_t index) const {
-    std::vector<Texel> texel;
-    const PathTracer& tracer = baker_.tracer();
-    make_texels(baker_.atlas(), baker_.texels(), index, index + 1, tracer, Switch::on, texel);
-    Receiver receiver{{texel[0].positions.data(), texel[0].position_count}, texel[0].normal};
-    receiver.frame_from_world = tangent_from_world(texel[0].normal);
+    std::vector<Receiver> texel;
+    const PathTracer& tracer = *setup_.tracer;
+    make_receivers(setup_.atlas, setup_.map, index, index + 1, tracer, Switch::on, texel);
+    Receiver& receiver = texel[0];
     receiver.key = static_cast<std::uint32_t>(index);
     GatherOptions gathering;
+    gathering.frame = Frame::tangent;
     gathering.dark_below = Switch::on;
 
     // The same samples for all: the first of them go to the encoders, all of them to the reference.
@@ -289,9 +289,9 @@ std::vector<BakedCodec> best_readings(std::vector<BakedCodec> codecs) {
 
 Result<BakedCodecs> judge_baked_codecs(const Scene& scene, const BakeOptions& bake, const BakeStudyOptions& options,
                                        const std::atomic<bool>& stop, const std::function<void(double)>& progress) {
-    auto baker = Baker::make(scene, bake);
-    if (!baker) return baker.error();
-    BakeStudy study(**baker, options);
+    const auto setup = BakeSetup::make(scene, bake);
+    if (!setup) return setup.error();
+    BakeStudy study(**setup, options);
     if (auto status = study.find_methods(); !status) return status.error();
     study.run(stop, progress);
     if (stop) return Error{"stopped"};

@@ -4,7 +4,7 @@
 #include <atomic>
 #include <functional>
 
-#include "bake/baker.h"
+#include "bake/session/setup.h"
 #include "lobelia/storage.h"
 #include "measure/study/study.h"
 

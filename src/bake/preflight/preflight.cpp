@@ -1,5 +1,5 @@
 // The checks: overlaps and padding on pages, triangles in the world, density, memory and time.
-#include "bake/session/preflight.h"
+#include "bake/preflight/preflight.h"
 
 #include <oneapi/tbb/combinable.h>
 #include <oneapi/tbb/parallel_for.h>
@@ -19,15 +19,15 @@ constexpr std::uint32_t k_nobody = 0xffffffff;
 using Pair = std::pair<std::uint32_t, std::uint32_t>;
 using PairCounts = std::map<Pair, std::size_t>;
 
-/// Marks texels whose centres two triangles hold, and counts them by their objects; each texel once.
+/// Marks texels whose centres two triangles cover, and counts them by object; each texel once.
 void find_overlaps(const Atlas& atlas, Preflight& result) {
-    // A triangle that only just reaches a point shares an edge with the other. The points lie a little beside the
-    // centres, for edges and diagonals like to run through those.
+    // The margin excludes triangles that share an edge. The points lie a little beside the centres, because edges and
+    // diagonals often run through those.
     constexpr double k_margin = 1e-3, k_x = 0.503, k_y = 0.508;
     const World& world = atlas.world();
     tbb::combinable<PairCounts> counts;
     tbb::parallel_for(std::size_t{0}, atlas.tiles(), [&](std::size_t tile) {
-        std::vector<TexelMark>& marks = result.marks[atlas.page_of_tile(tile)];
+        std::vector<TexelMark>& marks = result.pages[atlas.page_of_tile(tile)].mark;
         const TexelBox box = atlas.box_of_tile(tile);
         std::array<std::uint32_t, k_tile * k_tile> first;
         first.fill(k_nobody);
@@ -61,7 +61,7 @@ void find_overlaps(const Atlas& atlas, Preflight& result) {
                      [](const auto& a, const auto& b) { return a.texels > b.texels; });
 }
 
-/// Texels between (x, y) and the nearest of another chart, if fewer than `padding`.
+/// Returns the number of texels between texel i and the nearest of another chart, if fewer than `padding`.
 std::optional<std::size_t> free_texels(const std::vector<std::uint32_t>& charts, std::size_t width, std::size_t height,
                                        std::size_t i, std::size_t padding) {
     const std::size_t x = i % width, y = i / width;
@@ -69,26 +69,24 @@ std::optional<std::size_t> free_texels(const std::vector<std::uint32_t>& charts,
     for (std::size_t py = y - std::min(y, padding); py <= std::min(y + padding, height - 1); ++py)
         for (std::size_t px = x - std::min(x, padding); px <= std::min(x + padding, width - 1); ++px) {
             const std::uint32_t chart = charts[py * width + px];
-            if (chart == k_nobody || chart == charts[i]) continue;
+            if (chart == 0 || chart == charts[i]) continue;
             const std::size_t distance = std::max(px > x ? px - x : x - px, py > y ? py - y : y - py);
             if (!least || distance - 1 < *least) least = distance - 1;
         }
     return least;
 }
 
-/// Marks covered texels, and those that are too near to another chart.
+/// Marks covered texels, and those too near to another chart.
 void find_tight(const Atlas& atlas, const TexelMap& map, Preflight& result) {
-    std::vector<std::vector<std::uint32_t>> charts(
-        atlas.pages(), std::vector<std::uint32_t>(atlas.width() * atlas.height(), k_nobody));
     const auto place = [&](std::size_t i) { return map.texels[i].y * atlas.width() + map.texels[i].x; };
     for (std::size_t i = 0; i < map.texels.size(); ++i)
-        charts[map.texels[i].page][place(i)] = atlas.chart_of_triangle()[map.triangle[i]];
+        result.pages[map.texels[i].page].chart[place(i)] = atlas.chart_of_triangle()[map.triangle[i]] + 1;
 
     tbb::combinable<std::optional<std::size_t>> least;
     tbb::parallel_for(std::size_t{0}, map.texels.size(), [&](std::size_t i) {
-        TexelMark& mark = result.marks[map.texels[i].page][place(i)];
-        const auto found =
-            free_texels(charts[map.texels[i].page], atlas.width(), atlas.height(), place(i), result.padding);
+        Preflight::PageMarks& page = result.pages[map.texels[i].page];
+        TexelMark& mark = page.mark[place(i)];
+        const auto found = free_texels(page.chart, atlas.width(), atlas.height(), place(i), result.padding);
         mark = std::max(mark, found ? TexelMark::tight : TexelMark::covered);
         if (found && (!least.local() || *found < *least.local())) least.local() = found;
     });
@@ -98,11 +96,11 @@ void find_tight(const Atlas& atlas, const TexelMap& map, Preflight& result) {
     for (std::size_t i = 0; i < map.texels.size(); ++i) {
         Preflight::OfObject& object = result.objects[atlas.world().object[map.triangle[i]]];
         ++object.texels;
-        object.tight_texels += result.marks[map.texels[i].page][place(i)] == TexelMark::tight;
+        object.tight_texels += result.pages[map.texels[i].page].mark[place(i)] == TexelMark::tight;
     }
 }
 
-/// Areas of triangle t.
+/// Areas of triangle t in the world [m^2] and on its page [texels].
 double world_area(const World& world, std::size_t t) {
     const auto& [a, b, c] = world.triangles[t];
     return length(cross(world.positions[b] - world.positions[a], world.positions[c] - world.positions[a])) / 2.0;
@@ -114,7 +112,7 @@ double texel_area(const Atlas& atlas, std::size_t t) {
 }
 
 bool is_degenerate(const World& world, std::size_t t) {
-    // Its height is less than a millionth of its longest side: nothing but rounding.
+    // A height below a millionth of the longest side is rounding.
     const auto& [a, b, c] = world.triangles[t];
     const Vec3 sides[] = {world.positions[b] - world.positions[a], world.positions[c] - world.positions[b],
                           world.positions[a] - world.positions[c]};
@@ -149,7 +147,7 @@ void check_triangles(const Atlas& atlas, Preflight& result) {
         if (result.objects[i].area > 0)
             result.objects[i].texels_per_metre = std::sqrt(mapped[i] / result.objects[i].area);
 
-    // Edges at one place lie next to each other, and there those of an object.
+    // Sorting puts edges at one place next to each other, and there those of one object.
     const std::vector<WorldEdge> edges = sorted_edges(world, weld_positions(world, 0));
     for (std::size_t begin = 0, end; begin < edges.size(); begin = end) {
         const std::uint32_t object = world.object[edges[begin].triangle];
@@ -182,7 +180,7 @@ Preflight::Density density_of(const Atlas& atlas) {
         below += part;
         if (result.median == 0 && below >= area / 2) result.median = density;
     }
-    // Half octaves, from the one that holds the least; but no more than a reader would look at.
+    // Half octaves from the least on, at most as many as a reader would look at.
     constexpr double k_most_bins = 64;
     const double first =
         std::max(std::floor(2 * std::log2(result.least)), std::ceil(2 * std::log2(result.most)) - k_most_bins);
@@ -203,8 +201,8 @@ BakeMemory bake_memory(const Atlas& atlas, const TexelMap& map, std::size_t stat
     result.states = map.texels.size() * state_bytes;
     result.pages = atlas.pages() * of_page * (channels * sizeof(float) + sizeof(std::uint32_t) + sizeof(float));
     result.texels = map.texels.size() * (sizeof(CoveredTexel) + sizeof(std::uint32_t));
-    // Position and normal of all pages; for one page at a time brightness, spacing, four weights and a plane of work
-    // for each of a few threads.
+    // Position and normal of all pages; for one page at a time brightness, spacing, four weights and one work plane for
+    // each of a few threads.
     constexpr std::size_t k_planes_of_work = 3 + 1 + 4 + 4;
     result.finishing = atlas.pages() * of_page * 2 * sizeof(Vec3) + of_page * k_planes_of_work * sizeof(float);
     return result;
@@ -215,14 +213,20 @@ Preflight preflight(const Atlas& atlas, const TexelMap& map, const PreflightOpti
     Preflight result;
     result.width = atlas.width();
     result.height = atlas.height();
-    result.pages = atlas.pages();
     result.texels = map.texels.size();
     result.padding = options.padding;
     result.objects.resize(world.has_lightmap_uv.size());
     for (std::size_t i = 0; i < result.objects.size(); ++i) result.objects[i].has_uv = world.has_lightmap_uv[i] != 0;
-    for (const std::uint32_t chart : atlas.chart_of_triangle())
-        if (chart != Atlas::k_no_chart) result.charts = std::max<std::size_t>(result.charts, chart + 1);
-    result.marks.assign(atlas.pages(), std::vector<TexelMark>(atlas.width() * atlas.height(), TexelMark::empty));
+    const auto& charts = atlas.chart_of_triangle();
+    for (std::size_t t = 0; t < charts.size(); ++t) {
+        if (charts[t] == Atlas::k_no_chart) continue;
+        result.charts = std::max<std::size_t>(result.charts, charts[t] + 1);
+        result.object_of_chart.resize(result.charts);
+        result.object_of_chart[charts[t]] = world.object[t];
+    }
+    const std::size_t texels_of_page = atlas.width() * atlas.height();
+    result.pages.assign(atlas.pages(), {std::vector<TexelMark>(texels_of_page, TexelMark::empty),
+                                        std::vector<std::uint32_t>(texels_of_page)});
     find_overlaps(atlas, result);
     find_tight(atlas, map, result);
     check_triangles(atlas, result);
@@ -232,6 +236,15 @@ Preflight preflight(const Atlas& atlas, const TexelMap& map, const PreflightOpti
         result.seconds = static_cast<double>(result.texels) * options.samples * options.rate->rays_per_sample /
                          options.rate->rays_per_second;
     return result;
+}
+
+Preflight preflight(const BakeSetup& setup, std::optional<RayRate> rate) {
+    PreflightOptions options;
+    options.state_bytes = setup.layout.bytes();
+    options.channels = setup.encoding.page_channels().count();
+    options.samples = setup.options.samples;
+    options.rate = rate;
+    return preflight(setup.atlas, setup.map, options);
 }
 
 }  // namespace lobelia

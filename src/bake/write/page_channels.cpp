@@ -1,11 +1,11 @@
 // Names of the channels of lightmap pages.
-#include "bake/solve/pages.h"
+#include "lobelia/lightmap.h"
 
 #include <fmt/format.h>
 
 namespace lobelia {
 
-std::vector<std::string> PageLayout::names() const {
+std::vector<std::string> PageChannels::names() const {
     std::vector<std::string> result;
     for (std::size_t i = 0; i < coefficients; ++i)
         for (const char channel : {'R', 'G', 'B'}) result.push_back(fmt::format("c{}.{}", i, channel));

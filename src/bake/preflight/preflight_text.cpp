@@ -1,4 +1,4 @@
-// What preflight found, for people: sentences, a histogram of bars, a picture of each page.
+// Results of a preflight for people: sentences, a histogram of bars, a picture of each page.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <span>
 
-#include "bake/session/preflight.h"
+#include "bake/preflight/preflight.h"
 #include "core/math/colour.h"
 #include "io/counted.h"
 
@@ -18,14 +18,14 @@ std::string name_of(const Scene& scene, std::size_t object) {
     return named ? fmt::format("'{}'", scene.objects[object].name) : fmt::format("object {}", object);
 }
 
-/// What is counted, as "triangle" and " without area on the page".
+/// A count, and its name in two parts: "triangle" and " without area on the page".
 struct Subject {
     std::size_t Preflight::OfObject::*count;
     const char* noun;
     const char* rest;
 };
 
-/// At most `most` of the names, "and 5 more".
+/// Lists at most `most` names, then "and 5 more".
 std::string some_of(std::span<const std::string> names, std::size_t most = 4) {
     std::string result;
     for (std::size_t i = 0; i < std::min(names.size(), most); ++i) result += (i > 0 ? ", " : "") + names[i];
@@ -33,7 +33,7 @@ std::string some_of(std::span<const std::string> names, std::size_t most = 4) {
     return result;
 }
 
-/// "3000 triangles without area (2000 of 'wall', 1000 of 'floor')", or nothing where there are none.
+/// Returns "3000 triangles without area (2000 of 'wall', 1000 of 'floor')", or nothing if the count is 0.
 std::string listed(const Preflight& preflight, const Scene& scene, const Subject& subject) {
     std::vector<std::pair<std::size_t, std::size_t>> objects;
     std::size_t all = 0;
@@ -74,7 +74,7 @@ std::string histogram(const Preflight::Density& density) {
 
 using Pixel = std::array<std::uint8_t, 3>;
 
-/// Charts keep to hues between green and violet; hues of neighbours in number lie far apart (golden section).
+/// Chart colours: hues from green to violet, far apart for consecutive numbers (golden section).
 Pixel chart_colour(std::uint32_t chart) {
     const double turn = std::fmod((chart + 1) * 0.6180339887498949, 1.0);
     const double hue = 6 * (0.25 + 0.55 * turn), value = 0.5 + 0.3 * std::fmod(turn * 7, 1.0);
@@ -102,35 +102,36 @@ std::vector<std::string> warnings(const Preflight& p, const Scene& scene) {
                                       ? name_of(scene, object) + " overlap each other"
                                       : name_of(scene, object) + " and " + name_of(scene, other) + " overlap";
         result.push_back(
-            fmt::format("lightmap UVs of {} on {}: their light will be mixed up", whose, counted(texels, "texel")));
+            fmt::format("lightmap UVs of {} on {}: their light will be mixed", whose, counted(texels, "texel")));
     }
     if (p.overlaps.size() > k_most_overlaps)
-        result.push_back("overlaps of " + counted(p.overlaps.size() - k_most_overlaps, "more pair") + " of objects");
+        result.push_back("overlaps between " + counted(p.overlaps.size() - k_most_overlaps, "more pair") +
+                         " of objects");
     using Of = Preflight::OfObject;
-    warn({&Of::outside_triangles, "triangle", " with lightmap UVs out of [0, 1]"}, "what lies outside is not baked");
+    warn({&Of::outside_triangles, "triangle", " with lightmap UVs outside [0, 1]"}, "the part outside is not baked");
     if (p.least_padding)
-        warn({&Of::tight_texels, "texel", " too near to another chart"},
-             fmt::format("{} between charts where {} are needed; light will bleed", counted(*p.least_padding, "texel"),
+        warn({&Of::tight_texels, "texel", " too close to another chart"},
+             fmt::format("{} between charts, {} required; light will bleed", counted(*p.least_padding, "texel"),
                          p.padding));
     warn({&Of::unmapped_triangles, "triangle", " without area on the page"}, "nothing is baked there");
-    warn({&Of::degenerate_triangles, "degenerate triangle", ""}, "without area there is no front");
-    warn({&Of::non_manifold_edges, "edge", " of three triangles and more"},
-         "which of their sides is inside cannot be told");
+    warn({&Of::degenerate_triangles, "degenerate triangle", ""}, "a triangle without area has no front");
+    warn({&Of::non_manifold_edges, "edge", " shared by three or more triangles"}, "their inner side is undefined");
 
     std::vector<std::string> bare;
     for (std::size_t i = 0; i < p.objects.size(); ++i)
         if (!p.objects[i].has_uv) bare.push_back(name_of(scene, i));
     if (!bare.empty())
-        result.push_back(fmt::format("{} without lightmap UVs ({}): lit, but not baked; `lobelia unwrap` makes some",
+        result.push_back(fmt::format("{} without lightmap UVs ({}): lit, but not baked; `lobelia unwrap` makes them",
                                      counted(bare.size(), "object"), some_of(bare)));
     return result;
 }
 
 std::string to_text(const Preflight& p, const Scene& scene) {
-    const double all = static_cast<double>(p.width) * static_cast<double>(p.height) * static_cast<double>(p.pages);
+    const double all =
+        static_cast<double>(p.width) * static_cast<double>(p.height) * static_cast<double>(p.pages.size());
     std::string text =
-        fmt::format("{} of {} x {} texels, {} covered ({:.1f} %), {}\n", counted(p.pages, "page"), p.width, p.height,
-                    p.texels, 100 * static_cast<double>(p.texels) / all, counted(p.charts, "chart"));
+        fmt::format("{} of {} x {} texels, {} covered ({:.1f} %), {}\n", counted(p.pages.size(), "page"), p.width,
+                    p.height, p.texels, 100 * static_cast<double>(p.texels) / all, counted(p.charts, "chart"));
     if (!p.density.share.empty())
         text += fmt::format("texels per metre: {:.4g} to {:.4g}, median {:.4g} (share of the area)\n{}",
                             p.density.least, p.density.most, p.density.median, histogram(p.density));
@@ -142,23 +143,20 @@ std::string to_text(const Preflight& p, const Scene& scene) {
     return text;
 }
 
-Image8 preflight_picture(const Preflight& p, const Atlas& atlas, const TexelMap& map, std::size_t page,
-                         std::size_t most_side) {
-    assert(page < p.pages && most_side > 0);
+Image8 preflight_picture(const Preflight& p, std::size_t page, std::size_t most_side) {
+    assert(page < p.pages.size() && most_side > 0);
     const std::size_t shrink = (std::max(p.width, p.height) + most_side - 1) / most_side;
     Image8 picture{(p.width + shrink - 1) / shrink, (p.height + shrink - 1) / shrink, {}};
     std::vector<TexelMark> worst(picture.width * picture.height, TexelMark::empty);
     std::vector<Pixel> pixels(worst.size(), k_free);
-    for (std::size_t i = 0; i < map.texels.size(); ++i) {
-        const CoveredTexel& texel = map.texels[i];
-        if (texel.page != page) continue;
-        const TexelMark mark = p.marks[page][texel.y * p.width + texel.x];
-        const std::size_t at = texel.y / shrink * picture.width + texel.x / shrink;
-        if (mark <= worst[at]) continue;
-        worst[at] = mark;
-        pixels[at] = mark == TexelMark::overlap ? k_overlap
-                     : mark == TexelMark::tight ? k_tight
-                                                : chart_colour(atlas.chart_of_triangle()[map.triangle[i]]);
+    const auto& [marks, charts] = p.pages[page];
+    for (std::size_t i = 0; i < marks.size(); ++i) {
+        const std::size_t at = i / p.width / shrink * picture.width + i % p.width / shrink;
+        if (charts[i] == 0 || marks[i] <= worst[at]) continue;
+        worst[at] = marks[i];
+        pixels[at] = marks[i] == TexelMark::overlap ? k_overlap
+                     : marks[i] == TexelMark::tight ? k_tight
+                                                    : chart_colour(charts[i] - 1);
     }
     picture.rgb.reserve(3 * pixels.size());
     for (const Pixel& pixel : pixels) picture.rgb.insert(picture.rgb.end(), pixel.begin(), pixel.end());

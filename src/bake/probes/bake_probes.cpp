@@ -1,17 +1,16 @@
-// Placing and baking probes, level by level.
-#include "bake/probes/probe_bake.h"
+// Places and bakes probes, level by level.
+#include "bake/probes/bake_probes.h"
 
 #include <fmt/format.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <cmath>
 #include <limits>
 #include <map>
 #include <mutex>
 
-#include "bake/gather/sites.h"
+#include "bake/gather/pass.h"
 #include "lobelia/sampling.h"
 
 namespace lobelia {
@@ -20,9 +19,9 @@ namespace {
 /// A point of the finest lattice.
 using Place = std::array<std::int32_t, 3>;
 
-/// Probes see back faces in more than this share of directions only from inside something.
+/// Probes that see back faces in more than this fraction of directions are inside something.
 constexpr float k_most_back_faces = 0.25f;
-/// From outside a room, across the corner of three walls, an eighth of all directions meets backs.
+/// From outside a room, at the corner of three walls, an eighth of all directions hits back faces.
 constexpr float k_back_faces_to_move = 1.0f / 16;
 constexpr std::size_t k_feelers = 256;
 constexpr std::uint32_t k_samples_per_pass = 64;
@@ -31,7 +30,7 @@ std::array<Vec3, 2> box_of(const ProbeOptions& options, const World& world) {
     return options.box.value_or(std::array<Vec3, 2>{world.lowest, world.highest});
 }
 
-/// Coarse cells along each axis: the fewest that cover the box with cells no longer than the spacing.
+/// Returns the number of coarse cells per axis: the fewest that cover the box, none longer than the spacing.
 std::array<std::int32_t, 3> cells_of(const ProbeOptions& options, const World& world) {
     const auto [low, high] = box_of(options, world);
     const auto count = [&](float length) {
@@ -43,16 +42,16 @@ std::array<std::int32_t, 3> cells_of(const ProbeOptions& options, const World& w
 
 class ProbeBaker {
   public:
-    ProbeBaker(const PathTracer& tracer, const ProbeOptions& options, Codec codec, const std::atomic<bool>& stop)
+    ProbeBaker(const PathTracer& tracer, const ProbeOptions& options, Codec codec, const BakeSession& session)
         : tracer_(tracer),
           options_(options),
           codec_(std::move(codec)),
           layout_(codec_.encoder().get()),
-          stop_(stop),
+          session_(session),
           fine_(std::int32_t{1} << options.levels),
           cells_(cells_of(options, tracer.world())),
           feelers_(uniform_directions(Domain::sphere, Sequence::hammersley, k_feelers, 0)) {
-        // Cells are cubes; what they are too long for the box is shared between its two sides.
+        // Cells are cubes; centre them on the box.
         const auto [low, high] = box_of(options, tracer.world());
         const auto spacing = static_cast<float>(options.spacing);
         step_ = spacing / static_cast<float>(fine_);
@@ -62,36 +61,36 @@ class ProbeBaker {
         low_ = {first(low.x, high.x, cells_[0]), first(low.y, high.y, cells_[1]), first(low.z, high.z, cells_[2])};
     }
 
-    [[nodiscard]] Status run(const BakeProgressSink& progress) {
-        // The coarse grid first, x fastest.
+    [[nodiscard]] Status run() {
+        // Bake the coarse grid first, x fastest.
         std::vector<Place> wanted;
         for (std::int32_t z = 0; z <= cells_[2]; ++z)
             for (std::int32_t y = 0; y <= cells_[1]; ++y)
                 for (std::int32_t x = 0; x <= cells_[0]; ++x) wanted.push_back({x * fine_, y * fine_, z * fine_});
-        if (auto status = bake(wanted, 0, progress); !status) return status;
+        if (auto status = bake(wanted, 0); !status) return status;
         std::vector<Place> cells;
         for (std::int32_t z = 0; z < cells_[2]; ++z)
             for (std::int32_t y = 0; y < cells_[1]; ++y)
                 for (std::int32_t x = 0; x < cells_[0]; ++x) cells.push_back({x * fine_, y * fine_, z * fine_});
 
-        // Divide the cells whose middle their corners do not foretell.
+        // Divide cells whose corners do not predict the light in their middle.
         for (int level = 0; level <= options_.levels; ++level) {
             const std::int32_t size = fine_ >> level;
             std::vector<Place> divided;
             if (level < options_.levels) {
-                if (auto status = bake(middles(cells, size), level + 1, progress); !status) return status;
+                if (auto status = bake(middles(cells, size), level + 1); !status) return status;
                 for (const Place& cell : cells)
                     if (error_in(cell, size) > options_.tolerance) divided.push_back(cell);
             }
             keep_cells(cells, divided, size);
             if (divided.empty()) break;
             cells = children(divided, size / 2);
-            if (auto status = bake(corners(cells, size / 2), level + 1, progress); !status) return status;
+            if (auto status = bake(corners(cells, size / 2), level + 1); !status) return status;
         }
         return Done{};
     }
 
-    /// The probes that some cell uses, in the order in which they were made.
+    /// Returns the probes that cells use, in the order in which they were made.
     [[nodiscard]] ProbeSet result() const;
 
   private:
@@ -123,8 +122,9 @@ class ProbeBaker {
         return low_ + Vec3{static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])} * step_;
     }
 
-    [[nodiscard]] Status bake(std::span<const Place> wanted, int level, const BakeProgressSink& progress);
-    void bake_one(std::size_t probe, SiteWorker& worker);
+    [[nodiscard]] Status bake(std::span<const Place> wanted, int level);
+    [[nodiscard]] bool stopped() const { return session_.stop != nullptr && session_.stop->load(); }
+    void bake_one(std::size_t probe, PassWorker& worker);
     [[nodiscard]] std::optional<Vec3> way_out(Vec3 position, float reach) const;
     [[nodiscard]] Vec3 pushed_out(Vec3 position) const;
     [[nodiscard]] std::array<Rgb, 6> irradiances(std::uint32_t probe) const;
@@ -143,22 +143,22 @@ class ProbeBaker {
     const PathTracer& tracer_;
     const ProbeOptions& options_;
     Codec codec_;
-    SiteLayout layout_;
-    const std::atomic<bool>& stop_;
+    StateLayout layout_;
+    const BakeSession& session_;
     std::int32_t fine_;  ///< lattice steps along a coarse cell
     std::array<std::int32_t, 3> cells_;
     Directions feelers_;
     Vec3 low_;
     float step_;  ///< of the lattice [m]
     std::map<Place, std::uint32_t> at_;
-    std::vector<Site> sites_;
-    std::vector<SiteSummary> summaries_;
+    std::vector<Receiver> probes_;
+    std::vector<ReceiverSummary> summaries_;
     std::vector<Rgb> coefficients_;
     std::vector<Cell> kept_;
 };
 
-/// The way through the nearest wall that shows its back, and a little beyond, so that it does not fill half of the
-/// view. Nothing where too few do, or it would be farther than `reach`.
+/// Returns the way through the nearest back face and a little beyond, so that the wall does not fill half of the view.
+/// Nothing if too few directions hit back faces, or the nearest is farther than `reach`.
 std::optional<Vec3> ProbeBaker::way_out(Vec3 position, float reach) const {
     std::array<PathTracer::Ray, k_feelers> rays;
     std::array<PathTracer::Hit, k_feelers> hits;
@@ -176,8 +176,7 @@ std::optional<Vec3> ProbeBaker::way_out(Vec3 position, float reach) const {
 }
 
 Vec3 ProbeBaker::pushed_out(Vec3 position) const {
-    // Half a cell's diagonal: so far outside may lie the corner of a grid about a room. There may be several walls to
-    // pass.
+    // The corner of a grid around a room lies up to half a cell's diagonal outside, perhaps behind several walls.
     float left = 0.5f * std::sqrt(3.0f) * step_ * static_cast<float>(fine_);
     for (int step = 0; step < 3; ++step) {
         const auto way = way_out(position, left);
@@ -188,16 +187,15 @@ Vec3 ProbeBaker::pushed_out(Vec3 position) const {
     return position;
 }
 
-/// All samples of one probe.
-void ProbeBaker::bake_one(std::size_t probe, SiteWorker& worker) {
-    Site& site = sites_[probe];
-    site.positions[0] = pushed_out(site.positions[0]);
+/// Traces and encodes all samples of one probe.
+void ProbeBaker::bake_one(std::size_t probe, PassWorker& worker) {
+    Receiver& receiver = probes_[probe];
+    receiver.positions[0] = pushed_out(receiver.positions[0]);
     std::vector<float> state(layout_.floats());
     PassOptions pass;
-    pass.domain = Domain::sphere;
     for (std::uint32_t s = 0; s < options_.samples; s += k_samples_per_pass) {
         pass.samples = {s, k_samples_per_pass};
-        worker.run({&site, 1}, layout_, codec_.encoder().get(), state, pass);
+        worker.run({&receiver, 1}, layout_, codec_.encoder().get(), state, pass);
     }
     const std::size_t n = codec_.basis().size();
     summaries_[probe] = summary(layout_.record(std::span<const float>(state)), k_samples_per_pass);
@@ -205,40 +203,41 @@ void ProbeBaker::bake_one(std::size_t probe, SiteWorker& worker) {
                             std::span(coefficients_).subspan(probe * n, n));
 }
 
-Status ProbeBaker::bake(std::span<const Place> wanted, int level, const BakeProgressSink& progress) {
-    const std::size_t first = sites_.size();
+Status ProbeBaker::bake(std::span<const Place> wanted, int level) {
+    const std::size_t first = probes_.size();
     for (const Place& place : wanted) {
-        if (!at_.try_emplace(place, static_cast<std::uint32_t>(sites_.size())).second) continue;
-        if (sites_.size() >= options_.most_probes)
+        if (!at_.try_emplace(place, static_cast<std::uint32_t>(probes_.size())).second) continue;
+        if (probes_.size() >= options_.most_probes)
             return Error{fmt::format("--probes: more than {} probes; choose a larger spacing", options_.most_probes)};
-        Site site;
-        site.positions[0] = position_of(place);
-        site.position_count = 1;
-        site.normal = {0, 0, 1};
-        // Apart from the texels' keys, which count from 0.
-        site.key = 0x80000000u + static_cast<std::uint32_t>(sites_.size());
-        sites_.push_back(site);
+        Receiver receiver;
+        receiver.positions[0] = position_of(place);
+        receiver.position_count = 1;
+        receiver.domain = Domain::sphere;
+        // Texels' keys count from 0.
+        receiver.key = 0x80000000u + static_cast<std::uint32_t>(probes_.size());
+        probes_.push_back(receiver);
     }
-    const std::size_t count = sites_.size() - first;
-    summaries_.resize(sites_.size());
-    coefficients_.resize(sites_.size() * codec_.basis().size());
+    const std::size_t count = probes_.size() - first;
+    summaries_.resize(probes_.size());
+    coefficients_.resize(probes_.size() * codec_.basis().size());
 
-    tbb::enumerable_thread_specific<SiteWorker> workers([&] { return SiteWorker(tracer_); });
+    tbb::enumerable_thread_specific<PassWorker> workers([&] { return PassWorker(tracer_); });
     std::atomic<std::size_t> done = 0;
     std::mutex mutex;
     tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
-        if (stop_.load(std::memory_order_relaxed)) return;
+        if (stopped()) return;
         bake_one(first + i, workers.local());
         ++done;
-        if (!progress || !mutex.try_lock()) return;
+        if (!session_.progress || !mutex.try_lock()) return;
         BakeProgress is;
+        is.stage = BakeProgress::Stage::probes;
         is.done = static_cast<double>(done) / static_cast<double>(count);
         is.pass = static_cast<std::uint32_t>(level) + 1;
         is.passes = static_cast<std::uint32_t>(options_.levels) + 1;
-        progress(is);
+        session_.progress(is);
         mutex.unlock();
     });
-    if (stop_) return Error{"stopped"};
+    if (stopped()) return Error{"stopped"};
     return Done{};
 }
 
@@ -255,7 +254,7 @@ std::array<Rgb, 6> ProbeBaker::irradiances(std::uint32_t probe) const {
 }
 
 double ProbeBaker::error_in(Place cell, std::int32_t size) const {
-    // The mean of the valid corners, as interpolation in the middle gives it, against the probe that stands there.
+    // Compare the mean of the valid corners, the interpolated value in the middle, with the probe there.
     const std::uint32_t middle = at_.at(moved(cell, size / 2, size / 2, size / 2));
     if (summaries_[middle].validity < 1 - k_most_back_faces) return 0;
     std::array<Rgb, 6> mean{};
@@ -284,21 +283,21 @@ ProbeSet ProbeBaker::result() const {
     set.codec = options_.codec;
     set.coefficients_per_probe = n;
 
-    // Middles that no divided cell took up are of no use; the rest keep their order.
-    std::vector<std::uint32_t> index(sites_.size(), 0);
+    // Drop middles of cells that were not divided; the rest keep their order.
+    std::vector<std::uint32_t> index(probes_.size(), 0);
     for (const Cell& cell : kept_)
         for (unsigned k = 0; k < 8; ++k) index[at_.at(corner_of(cell.corner, cell.size, k))] = 1;
-    for (std::size_t i = 0; i < sites_.size(); ++i) {
+    for (std::size_t i = 0; i < probes_.size(); ++i) {
         if (index[i] == 0) continue;
         index[i] = static_cast<std::uint32_t>(set.positions.size());
-        set.positions.push_back(sites_[i].positions[0]);
+        set.positions.push_back(probes_[i].positions[0]);
         set.validity.push_back(summaries_[i].validity);
         set.back_faces.push_back(1 - summaries_[i].validity);
         set.coefficients.insert(set.coefficients.end(), coefficients_.begin() + static_cast<std::ptrdiff_t>(i * n),
                                 coefficients_.begin() + static_cast<std::ptrdiff_t>((i + 1) * n));
     }
 
-    // A grid says where its probes are by itself; a subdivision says it cell by cell.
+    // Describe a regular grid by its spacing, a subdivision by its cells.
     if (options_.levels == 0) {
         const auto count = [](std::int32_t cells) { return static_cast<std::uint32_t>(cells + 1); };
         set.grid = ProbeGrid{{count(cells_[0]), count(cells_[1]), count(cells_[2])}, low_, Vec3{step_, step_, step_}};
@@ -320,24 +319,20 @@ Status check(const ProbeOptions& options, const World& world) {
     auto codec = make_codec(options.codec);
     if (!codec) return codec.error();
     if (codec->basis().domain() != Domain::sphere)
-        return Error{"--probe-codec: probes see all directions, and " + codec->basis().name() + " only a hemisphere"};
+        return Error{"--probe-codec: must be spherical; " + codec->basis().name() + " is a basis of the hemisphere"};
     const auto cells = cells_of(options, world);
     double probes = 1;
     for (const std::int32_t n : cells) probes *= n + 1.0;
     if (probes > static_cast<double>(options.most_probes))
-        return Error{fmt::format("--probe-spacing: {} would take {} x {} x {} probes; at most {} are made",
-                                 options.spacing, cells[0] + 1, cells[1] + 1, cells[2] + 1, options.most_probes)};
+        return Error{fmt::format("--probe-spacing: {} needs {} x {} x {} probes; the maximum is {}", options.spacing,
+                                 cells[0] + 1, cells[1] + 1, cells[2] + 1, options.most_probes)};
     return Done{};
 }
 
-Result<ProbeSet> bake_probes(const PathTracer& tracer, const ProbeOptions& options, unsigned threads,
-                             const std::atomic<bool>& stop, const BakeProgressSink& progress) {
+Result<ProbeSet> bake_probes(const PathTracer& tracer, const ProbeOptions& options, const BakeSession& session) {
     if (auto status = check(options, tracer.world()); !status) return status.error();
-    ProbeBaker baker(tracer, options, make_codec(options.codec).value(), stop);
-    Status status = Done{};
-    tbb::task_arena arena(threads == 0 ? tbb::task_arena::automatic : static_cast<int>(threads));
-    arena.execute([&] { status = baker.run(progress); });
-    if (!status) return status.error();
+    ProbeBaker baker(tracer, options, make_codec(options.codec).value(), session);
+    if (auto status = baker.run(); !status) return status.error();
     return baker.result();
 }
 

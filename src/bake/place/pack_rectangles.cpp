@@ -1,5 +1,5 @@
 // Packing by stb_rect_pack.
-#include "bake/place/pack.h"
+#include "bake/place/pack_rectangles.h"
 
 #include <algorithm>
 #include <cassert>
@@ -29,7 +29,7 @@ void sort_stably(T* begin, int count, std::size_t, const Compare& compare) {
 
 namespace lobelia {
 
-std::size_t pack(std::span<PackedRectangle> rectangles, int width, int height, int padding) {
+std::size_t pack_rectangles(std::span<PackedRectangle> rectangles, int width, int height, int padding) {
     std::vector<stbrp_rect> left;
     for (std::size_t i = 0; i < rectangles.size(); ++i) {
         assert(rectangles[i].width <= width && rectangles[i].height <= height);

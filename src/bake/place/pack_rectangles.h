@@ -16,6 +16,6 @@ struct PackedRectangle {
 
 /// Places all rectangles on pages of width x height, at least `padding` apart, and returns the number of pages. Each
 /// rectangle fits a page (asserted). The same on every platform.
-std::size_t pack(std::span<PackedRectangle> rectangles, int width, int height, int padding);
+std::size_t pack_rectangles(std::span<PackedRectangle> rectangles, int width, int height, int padding);
 
 }  // namespace lobelia

@@ -1,0 +1,154 @@
+// The bake: a scene in, lightmap pages and probes out, in one call or in several sessions.
+//
+//   BakeJob job;
+//   job.bake.atlas = {.width = 256, .height = 256};
+//   BakeSession session{.folder = "out"};
+//   const Result<Bake> baked = bake(scene, job, session);
+//
+// docs/baking.md explains the options, docs/bake-format.md the folder.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "lobelia/bake_job.h"
+#include "lobelia/lightmap.h"
+#include "lobelia/preflight.h"
+#include "lobelia/texture_layout.h"
+
+namespace lobelia {
+
+struct BakeStatistics {
+    std::size_t texels = 0;          ///< covered by triangles
+    std::size_t invalid_texels = 0;  ///< validity below one half
+    std::size_t buried_texels = 0;   ///< invalid texels under other surfaces, where no light can arrive
+    std::uint64_t rays = 0;
+    double seconds = 0;          ///< tracing and encoding, over all sessions
+    std::uint32_t samples = 0;   ///< per texel, at most
+    double mean_error = 0;       ///< RMS over texels of the standard error of E's luminance, over the mean of E
+    double back_face_share = 0;  ///< leaks: fraction of paths of unburied texels that hit a back face first
+    double negative_share = 0;   ///< fraction of the codec's irradiances around each normal that are negative
+    double ringing = 0;          ///< mean of their negative parts, over their mean
+    double codec_error = 0;      ///< RMS over texels of E by the codec minus E by the paths, over the mean of E
+};
+
+/// A KTX2 texture of one page.
+struct TextureEntry {
+    std::string storage;            ///< one of storages()
+    std::string file;               ///< .ktx2, in the bake's folder
+    TextureLayout::Texture layout;  ///< contents of its channels
+    float scale = 1;                ///< multiply stored values by this first
+};
+
+/// The files of one page, in the bake's folder.
+struct PageEntry {
+    std::string file;                     ///< .exr
+    std::vector<TextureEntry> textures;   ///< sorted by storage
+    std::optional<std::string> validity;  ///< .ktx2, where there are textures
+};
+
+/// An object of the scene and its place; in the scene's order, those without lightmap UVs included.
+struct ObjectEntry {
+    std::string name;
+    AtlasPlacement placement;
+};
+
+/// The contents of bake.json.
+struct Manifest {
+    std::string program;  ///< version of the program that baked it
+    std::string scene_name;
+    std::uint64_t scene_hash = 0;            ///< scene_hash(scene)
+    std::optional<std::string> scene;        ///< file of the glTF copy, whose lightmap UVs are those of the pages
+    std::optional<std::string> environment;  ///< file of the scene's environment
+    std::vector<std::string> warnings;
+    std::size_t coefficients = 0;       ///< per texel; each is R, G, B
+    std::size_t width = 0, height = 0;  ///< of each page [texels]
+    Precision precision = Precision::full;
+    std::vector<PageEntry> pages;  ///< filled in by write_bake
+    std::vector<ObjectEntry> objects;
+    std::optional<std::string> probes;  ///< file of the probes' description
+    BakeOptions options;                ///< all but memory and threads
+    std::vector<std::string> finish;    ///< steps taken, in order: denoise, seams, dilate
+    BakeStatistics statistics;
+};
+
+/// A bake in memory. Evaluate a texel's coefficients with make_codec(manifest.options.codec).
+struct Bake {
+    Manifest manifest;
+    std::vector<LightmapPage> pages;
+    std::vector<std::vector<Vec3>> normals;  ///< shading normals of each page's texels; zero where nothing was baked
+    std::optional<ProbeSet> probes;
+    std::optional<Preflight> preflight;  ///< absent in a bake that was read from a folder
+
+    [[nodiscard]] PageChannels channels() const { return {manifest.coefficients}; }
+};
+
+struct BakeProgress {
+    enum class Stage { texels, probes } stage = Stage::texels;
+    double done = 0;  ///< fraction of the stage, in [0, 1]
+    double rays_per_second = 0;
+    double seconds_left = 0;
+    double error = 0;  ///< BakeStatistics::mean_error so far; 0: not known yet
+    std::uint32_t pass = 0, passes = 0;
+};
+
+/// One run of a job: where it keeps its states, how it is watched and stopped. Callbacks may come from any thread,
+/// never concurrently.
+struct BakeSession {
+    /// Holds the checkpoint while the bake runs, and then the bake as write_bake leaves it. Empty: no files.
+    std::filesystem::path folder;
+    /// fresh: an error if the folder holds a checkpoint. resume: continue the checkpoint there, if there is one.
+    enum class Start { fresh, resume } start = Start::fresh;
+    const std::atomic<bool>* stop = nullptr;  ///< ends the run when it becomes true; the checkpoint stays
+    std::function<void(const BakeProgress&)> progress = {};
+    std::vector<std::string> earlier_warnings = {};     ///< of the scene's reader; go to `warn` and into the manifest
+    std::function<void(const std::string&)> warn = {};  ///< receives each warning at once; the manifest keeps them, too
+};
+
+/// Bakes a scene: places texels on pages, gathers light for them, solves for coefficients, finishes the pages, writes
+/// them into the session's folder. The same bits for any number of threads, regions, sessions and tile shards. The bake
+/// of a shard (job.bake.shard.count > 1) has no pages: its states lie in the session's folder for merge_bake.
+/// Preconditions: the scene passes check_scene. Errors name what is wrong and the remedy; an early stop is an error.
+[[nodiscard]] Result<Bake> bake(const Scene& scene, const BakeJob& job, BakeSession& session);
+
+/// Merges the checkpoints of all shards of a job, given by their bakes' folders, into the session's folder, and
+/// finishes the bake there. Errors: a shard is missing, unfinished, given twice or of another bake. Precondition:
+/// job.bake.shard is that of a whole bake.
+[[nodiscard]] Result<Bake> merge_bake(const Scene& scene, const BakeJob& job,
+                                      std::span<const std::filesystem::path> shards, BakeSession& session);
+
+/// Bakes the texels of one object again, in the scene as it is now, and replaces them in `there`, a finished bake of
+/// the same job. `object` is its name, or its index as "#3".
+[[nodiscard]] Result<Bake> rebake_object(const Scene& scene, const BakeJob& job, std::string_view object, Bake there,
+                                         BakeSession& session);
+
+/// Returns the job that bake() keeps with its checkpoint in a bake's folder.
+[[nodiscard]] Result<BakeJob> read_job(const std::filesystem::path& folder);
+
+struct WriteBakeOptions {
+    std::optional<std::vector<std::string>> storages = {};  ///< of the textures; absent: default_storages()
+    const Scene* scene = nullptr;                           ///< also write a copy of the scene and its environment
+};
+
+/// Writes a folder: pages, textures, probes, at last bake.json; returns the manifest with the files' names. Every file
+/// is complete beside its place before the first one takes it. The folder is made if it is missing. Values that half
+/// floats cannot hold are written as floats, with a warning in the manifest; values that are not finite are an error.
+[[nodiscard]] Result<Manifest> write_bake(const std::filesystem::path& folder, const Bake& bake,
+                                          const WriteBakeOptions& options = {});
+
+/// Reads a folder, or the bake.json in it. Opens no files outside the folder. Errors name the file and the place in it.
+[[nodiscard]] Result<Bake> read_bake(const std::filesystem::path& folder);
+
+/// Reads the scene of a bake in a folder: the copy there, or the embedded scene that was baked. Render it with
+/// LightmapUv::of_copy if manifest.scene is set. `light` may replace the environment.
+[[nodiscard]] Result<LoadedScene> read_baked_scene(const std::filesystem::path& folder, const Manifest& manifest,
+                                                   const SceneSource& light = {});
+
+}  // namespace lobelia

@@ -1,0 +1,56 @@
+// The library's calls for pictures.
+#include "bake/render/render.h"
+
+#include <fmt/format.h>
+
+#include "bake/write/scene_copy.h"
+
+namespace lobelia {
+namespace {
+
+/// Counts the surface that the camera sees as the tracer does.
+PathOptions with_seen_surface(PathOptions paths) {
+    paths.bounces += 1;
+    return paths;
+}
+
+Result<Image> finished(std::optional<Image> image) {
+    if (!image) return Error{"stopped"};
+    return *std::move(image);
+}
+
+}  // namespace
+
+Result<Image> render(const Scene& scene, const Camera& camera, const PathOptions& paths, const RenderOptions& options) {
+    const World world = make_world(scene);
+    return finished(render_paths(PathTracer(scene, world, with_seen_surface(paths)), camera, options));
+}
+
+Result<Image> render(const Scene& scene, const Bake& bake, const Camera& camera, const RenderOptions& options) {
+    if (scene.objects.size() != bake.manifest.objects.size())
+        return Error{fmt::format("the bake holds {} objects, but the scene {}", bake.manifest.objects.size(),
+                                 scene.objects.size())};
+    const auto light = light_of(bake, options.lightmap_uv);
+    if (!light) return light.error();
+    const World world = make_world(scene);
+    const PathTracer tracer(scene, world, with_seen_surface(bake.manifest.options.paths));
+    return finished(render_bake(tracer, *light, camera, options));
+}
+
+Camera default_camera(const Scene& scene) { return default_camera(make_world(scene)); }
+
+Result<BakedLight> light_of(const Bake& bake, LightmapUv uv) {
+    BakedLight light{bake.pages, {}, bake.channels(), {}, Frame::tangent};
+    if (!bake.manifest.options.codec.empty()) {
+        auto codec = make_codec(bake.manifest.options.codec);
+        if (!codec) return codec.error();
+        light.codec = *std::move(codec);
+        light.frame = bake.manifest.options.frame;
+    }
+    for (std::size_t i = 0; i < bake.manifest.objects.size(); ++i)
+        light.placements.push_back(uv == LightmapUv::of_copy ? placement_in_copy(bake.manifest, i)
+                                                             : bake.manifest.objects[i].placement);
+    return light;
+}
+
+}  // namespace lobelia

@@ -1,0 +1,92 @@
+// Progress, summary and report of a bake.
+#include "cli/bake_session.h"
+
+#include <fmt/format.h>
+
+#include "cli/common.h"
+#include "io/counted.h"
+#include "report/bake_page.h"
+
+namespace lobelia::cli {
+namespace {
+
+std::function<void(const BakeProgress&)> progress_line() {
+    auto bar = labelled_progress_bar();
+    if (!bar) return {};
+    return [bar](const BakeProgress& p) {
+        std::string text = p.stage == BakeProgress::Stage::texels ? "baking: " : "probes: ";
+        if (p.rays_per_second > 0) text = fmt::format("{:.1f} Mray/s, ", p.rays_per_second * 1e-6);
+        text += fmt::format("pass {} of {}", p.pass, p.passes);
+        if (p.seconds_left > 1) text += fmt::format(", {:.0f} s left", p.seconds_left);
+        if (p.error > 0) text += fmt::format(", error {:.2g} %", 100 * p.error);
+        bar(p.done, text);
+    };
+}
+
+void print_summary(const Bake& bake) {
+    const BakeStatistics& s = bake.manifest.statistics;
+    const BakeOptions& options = bake.manifest.options;
+    fmt::print("{} on {} of {}x{}, {} each{}\n", counted(s.texels, "texel"), counted(bake.pages.size(), "page"),
+               bake.manifest.width, bake.manifest.height, counted(s.samples, "sample"),
+               options.target_error ? " at most" : "");
+    fmt::print("{:.1f} million rays in {:.2f} s, {:.1f} Mray/s\n", static_cast<double>(s.rays) * 1e-6, s.seconds,
+               s.seconds > 0 ? static_cast<double>(s.rays) * 1e-6 / s.seconds : 0);
+    const std::string error =
+        s.samples > options.samples_per_pass ? fmt::format("{:.2f} %", 100 * s.mean_error) : "unknown after one pass";
+    const std::string invalid =
+        s.invalid_texels == 0
+            ? "no invalid texels"
+            : fmt::format("{}, {} under other surfaces", counted(s.invalid_texels, "invalid texel"), s.buried_texels);
+    fmt::print("standard error of E {}, leaks {:.2f} %, {}\n", error, 100 * s.back_face_share, invalid);
+    if (!options.codec.empty())
+        fmt::print("codec irradiance error {:.2f} % RMS; {:.2f} % of evaluations negative; ringing {:.2f} %\n",
+                   100 * s.codec_error, 100 * s.negative_share, 100 * s.ringing);
+    if (bake.probes) fmt::print("{}\n", counted(bake.probes->size(), "probe"));
+}
+
+Status stopped(const BakeSession& session, const BakeOptions& options) {
+    complain(options.only_object ? fmt::format("lobelia: stopped; the bake in {} is unchanged", session.folder.string())
+                                 : fmt::format("lobelia: stopped; continue with: lobelia bake --resume -o {}",
+                                               session.folder.string()));
+    StopOnInterrupt::end_program();
+    return Error{"stopped"};
+}
+
+Status write_report(const Scene& scene, const BakeJob& job, const Bake& bake, const BakeSession& session) {
+    RenderOptions pictures;
+    pictures.threads = job.bake.threads;
+    pictures.stop = session.stop;
+    pictures.progress = progress_bar();
+    const auto html = bake_report(scene, bake, job.report, pictures);
+    if (!html) return html.error();
+    return write_file_atomically(session.folder / "bake.html", *html);
+}
+
+}  // namespace
+
+BakeSession session_in(const std::string& out, const StopOnInterrupt& stop) {
+    BakeSession session;
+    session.folder = out;
+    session.stop = &stop.flag();
+    session.progress = progress_line();
+    session.warn = [](const std::string& text) { complain("lobelia: warning: " + text); };
+    return session;
+}
+
+Status finish_session(const Scene& scene, const BakeJob& job, const Result<Bake>& baked, const BakeSession& session) {
+    const std::string out = session.folder.string();
+    const bool report = baked && job.report.write == Switch::on && job.bake.shard.count == 1;
+    const Status status = !baked   ? Status(baked.error())
+                          : report ? write_report(scene, job, *baked, session)
+                                   : Status(Done{});
+    if (!status) return *session.stop ? stopped(session, job.bake) : status;
+    if (job.bake.shard.count > 1) {
+        fmt::print("part {} of {} is done: {}\n", job.bake.shard.index, job.bake.shard.count, out);
+        return Done{};
+    }
+    print_summary(*baked);
+    fmt::print("{}\n", (session.folder / (report ? "bake.html" : "bake.json")).string());
+    return Done{};
+}
+
+}  // namespace lobelia::cli
