@@ -19,6 +19,7 @@ configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/lobeliaConfig.cmake.in $
 # Before 1.0 a new minor version may break what was.
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/lobeliaConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/lobeliaConfig.cmake ${PROJECT_BINARY_DIR}/lobeliaConfigVersion.cmake
+  ${CMAKE_CURRENT_LIST_DIR}/highway.cmake
   DESTINATION ${package_folder})
 
 # The pkg-config file finds its prefix from where it lies, so that the tree may be moved.

@@ -1,16 +1,4 @@
 // Writes a seed corpus: small valid files of every kind, into FOLDER/hdr, FOLDER/exr and so on.
-#define STB_IMAGE_WRITE_IMPLEMENTATION
-#define STB_IMAGE_WRITE_STATIC
-#if defined(__GNUC__)
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wunused-function"
-#pragma GCC diagnostic ignored "-Wmissing-field-initializers"
-#endif
-#include <stb/stb_image_write.h>
-#if defined(__GNUC__)
-#pragma GCC diagnostic pop
-#endif
-
 #include <cstdio>
 #include <filesystem>
 
@@ -21,6 +9,7 @@
 #include "io/write_image.h"
 #include "io_files.h"
 #include "lobelia/storage.h"
+#include "picture_files.h"
 #include "scene/embedded.h"
 #include "scene/gltf_write.h"
 
@@ -69,27 +58,52 @@ bool write_exr_seeds(const std::filesystem::path& folder) {
     done &= write(folder, "luminance-chroma", make_luminance_chroma_exr(image));
     done &= write(folder, "multi-part", make_multi_part_exr(image, {{"Z"}, {"R", "G", "B", "A"}}));
     done &= write(folder, "deep", make_deep_exr());
+    done &= write(folder, "windows", make_exr(image, {.left = 4, .display = std::array{0, -2, 15, 20}}));
+    done &= write(folder, "latitude-longitude", make_exr(image, {.envmap = Imf::ENVMAP_LATLONG}));
+    done &= write(folder, "cube", make_exr(test_image(4, 24), {.envmap = Imf::ENVMAP_CUBE}));
     return done;
 }
 
-bool write_ldr_seeds(const std::filesystem::path& folder) {
-    const Image8 picture = to_srgb(test_image(20, 10), 0.02f);
-    const auto append = [](void* target, void* data, int size) {
-        static_cast<std::string*>(target)->append(static_cast<const char*>(data), static_cast<std::size_t>(size));
-    };
-    // The same bytes as pictures of 1 to 4 channels.
+bool write_png_seeds(const std::filesystem::path& folder) {
+    using Colours = PngSpec::Colours;
     bool done = true;
-    for (int channels = 1; channels <= 4; ++channels) {
-        std::string png, jpeg, bmp;
-        const void* data = picture.rgb.data();
-        done &= stbi_write_png_to_func(append, &png, 15, 10, channels, data, 15 * channels) != 0;
-        done &= stbi_write_jpg_to_func(append, &jpeg, 15, 10, channels, data, 70 + 10 * channels) != 0;
-        done &= stbi_write_bmp_to_func(append, &bmp, 15, 10, channels, data) != 0;
-        const std::string name = std::to_string(channels);
-        done &= write(folder, name + ".png", png) && write(folder, name + ".jpg", jpeg) &&
-                write(folder, name + ".bmp", bmp);
-    }
+    for (const bool interlaced : {false, true})
+        for (const bool transparent : {false, true})
+            for (const PngSpec& spec : {PngSpec{Colours::grey, 1, interlaced, transparent},
+                                        {Colours::grey, 16, interlaced, transparent},
+                                        {Colours::palette, 4, interlaced, transparent},
+                                        {Colours::rgb, 8, interlaced, transparent},
+                                        {Colours::rgba, 16, interlaced, false}}) {
+                const std::string name = std::to_string(static_cast<int>(spec.colours)) + "-" +
+                                         std::to_string(spec.bits) + (interlaced ? "-interlaced" : "") +
+                                         (transparent ? "-transparent" : "");
+                done &= write(folder, name + ".png", make_png(15, 10, spec).bytes);
+            }
     return done;
+}
+
+bool write_jpeg_seeds(const std::filesystem::path& folder) {
+    using Colours = JpegSpec::Colours;
+    using Scans = JpegSpec::Scans;
+    bool done = true;
+    const TestPicture picture = test_picture(15, 10);
+    for (const Colours colours : {Colours::grey, Colours::ycc, Colours::rgb, Colours::cmyk, Colours::ycck})
+        for (const Scans scans : {Scans::interleaved, Scans::by_component, Scans::progressive}) {
+            const std::string name =
+                std::to_string(static_cast<int>(colours)) + "-" + std::to_string(static_cast<int>(scans));
+            done &= write(folder, name + ".jpg", make_jpeg(picture, {.colours = colours, .scans = scans}));
+        }
+    return done && write(folder, "restart.jpg", make_jpeg(picture, {.restart_interval = 1})) &&
+           write(folder, "arithmetic.jpg", make_jpeg(picture, {.arithmetic = true}));
+}
+
+bool write_ldr_seeds(const std::filesystem::path& folder) {
+    const TestPicture opaque = test_picture(15, 10), transparent = test_picture(15, 10, Alpha::transparent);
+    return write_png_seeds(folder) && write_jpeg_seeds(folder) && write(folder, "opaque.webp", make_webp(opaque)) &&
+           write(folder, "transparent.webp", make_webp(transparent)) &&
+           write(folder, "lossy.webp", make_webp(opaque, {.lossless = false})) &&
+           write(folder, "lossy-transparent.webp", make_webp(transparent, {.lossless = false})) &&
+           write(folder, "animated.webp", make_animated_webp());
 }
 
 bool write_gltf_seeds(const std::filesystem::path& folder) {

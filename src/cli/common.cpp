@@ -18,7 +18,7 @@ void add_environment_options(CLI::App& command, EnvironmentOptions& options) {
                     "A latitude-longitude environment, .hdr or .exr, or \"sky\" for the embedded one")
         ->required();
     command.add_flag("--ldr", options.read.ldr,
-                     "Accept PNG, JPEG and BMP too (decoded from sRGB; highlights are cut off)");
+                     "Accept PNG, JPEG and WebP too (decoded from sRGB; highlights are cut off)");
     command.add_flag("--sanitize", options.read.sanitize,
                      "Replace NaN, infinite and negative texels by 0 where they are otherwise refused");
     command.add_option("--sky-size", options.sky_size, "Texels of the embedded sky, WxH")->capture_default_str();

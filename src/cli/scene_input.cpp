@@ -25,7 +25,7 @@ void add_light_options(CLI::App& command, SceneSource& options) {
         "Environment: a latitude-longitude .hdr or .exr, \"sky\" for the embedded sky and its sun, which "
         "replaces directional lights, or \"none\" (default: the scene's own)");
     add_switch(command, "--ldr", options.ldr,
-               "Also accept PNG, JPEG and BMP as --env (decoded from sRGB; highlights are clipped)");
+               "Also accept PNG, JPEG and WebP as --env (decoded from sRGB; highlights are clipped)");
     add_switch(command, "--sanitize", options.sanitize,
                "Replace NaN, infinite and negative texels of --env by 0; they are refused otherwise");
     command

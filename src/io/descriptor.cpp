@@ -1,4 +1,4 @@
-// POSIX file descriptors for the writers of files.
+// POSIX file descriptors for the readers and writers of files.
 #include "io/descriptor.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// POSIX file descriptors for the writers of files.
+// POSIX file descriptors for the readers and writers of files.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace lobelia::io {
 
-/// An owned descriptor; `close` tells whether that worked, as a full network disk may say only then.
+/// An owned descriptor. `close` returns whether closing worked: a full network disk may fail only then.
 class Descriptor {
   public:
     explicit Descriptor(int value) : value_(value) {}
@@ -25,10 +25,10 @@ class Descriptor {
     int value_;
 };
 
-/// Writes all bytes; false with errno where that fails.
+/// Writes all bytes; false with errno if that fails.
 [[nodiscard]] bool write_all(const Descriptor& descriptor, std::span<const std::byte> bytes);
 
-/// That `path` could not be written, and the system's reason.
+/// The error for a `path` that cannot be written, with the system's reason.
 [[nodiscard]] Error write_failure(const std::filesystem::path& path, int code);
 
 }  // namespace lobelia::io

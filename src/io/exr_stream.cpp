@@ -1,4 +1,4 @@
-// OpenEXR's streams over a file, over bytes in memory, into a string and into a staged file, with plain bounds checks.
+// OpenEXR's streams: from files and memory, into strings and staged files, with plain bounds checks.
 #include "io/exr_stream.h"
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace {
 
 [[noreturn]] void throw_truncated() { throw std::runtime_error("the file ends too early"); }
 
-/// Whether `count` bytes lie at `position`; written so that nothing overflows.
+/// Returns true if `count` bytes lie at `position`; written so that nothing overflows.
 bool holds(std::uint64_t size, std::uint64_t position, int count) {
     return count >= 0 && position <= size && static_cast<std::uint64_t>(count) <= size - position;
 }
@@ -26,18 +26,12 @@ bool MemoryInput::read(char* target, int count) {
 }
 
 bool FileInput::read(char* target, int count) {
-    if (!holds(size_, position_, count)) throw_truncated();
-    const auto bytes = static_cast<std::size_t>(count);
-    if (std::fread(target, 1, bytes, file_.get()) != bytes) throw_truncated();
+    if (!holds(size(), position_, count)) throw_truncated();
+    const std::span bytes(target, static_cast<std::size_t>(count));
+    if (const Status status = file_.read(position_, std::as_writable_bytes(bytes)); !status)
+        throw std::runtime_error(status.error().message);
     position_ += static_cast<StreamPosition>(count);
-    return position_ < size_;
-}
-
-void FileInput::seekg(StreamPosition position) {
-    // Positions come from the file itself; those beyond its end fail at the next read.
-    if (position <= size_ && fseeko(file_.get(), static_cast<off_t>(position), SEEK_SET) != 0)
-        throw std::runtime_error("the file is not seekable");
-    position_ = position;
+    return position_ < size();
 }
 
 void MemoryOutput::write(const char* source, int count) {

@@ -1,16 +1,15 @@
-// OpenEXR's streams over a file, over bytes in memory, into a string and into a staged file, with plain bounds checks.
+// OpenEXR's streams: from files and memory, into strings and staged files, with plain bounds checks.
 #pragma once
 
 #include <OpenEXR/ImfIO.h>
 
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
-#include <memory>
 #include <span>
 #include <string>
 #include <utility>
 
+#include "io/read_file.h"
 #include "io/staged_file.h"
 
 namespace lobelia::io {
@@ -18,7 +17,7 @@ namespace lobelia::io {
 // OpenEXR 2 and 3 name different 64-bit types here.
 using StreamPosition = decltype(std::declval<Imf::IStream&>().tellg());
 
-/// A source of known size. `read` throws std::runtime_error where the bytes run out, as OpenEXR expects.
+/// A source of known size. `read` throws std::runtime_error if the bytes run out, as OpenEXR expects.
 class ExrInput : public Imf::IStream {
   public:
     using Imf::IStream::IStream;
@@ -38,20 +37,17 @@ class MemoryInput final : public ExrInput {
     StreamPosition position_ = 0;
 };
 
-/// A file opened for reading; `file` is owned and must be seekable.
 class FileInput final : public ExrInput {
   public:
-    using Handle = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
-    FileInput(Handle file, std::uint64_t size, const std::string& name)
-        : ExrInput(name.c_str()), file_(std::move(file)), size_(size) {}
+    explicit FileInput(InputFile file) : ExrInput(file.name().c_str()), file_(std::move(file)) {}
     bool read(char* target, int count) override;
     StreamPosition tellg() override { return position_; }
-    void seekg(StreamPosition position) override;
-    [[nodiscard]] std::uint64_t size() const override { return size_; }
+    /// Positions come from the file itself; those beyond its end fail at the next read.
+    void seekg(StreamPosition position) override { position_ = position; }
+    [[nodiscard]] std::uint64_t size() const override { return file_.size(); }
 
   private:
-    Handle file_;
-    std::uint64_t size_;
+    InputFile file_;
     StreamPosition position_ = 0;
 };
 
@@ -68,7 +64,7 @@ class MemoryOutput final : public Imf::OStream {
     StreamPosition position_ = 0;
 };
 
-/// Into a staged file; once that fails, `status` says why and nothing more is written.
+/// Writes into a staged file. After the first failure nothing more is written, and `status` holds the error.
 class StagedOutput final : public Imf::OStream {
   public:
     explicit StagedOutput(StagedFile& file) : OStream("OpenEXR file"), file_(file) {}

@@ -53,7 +53,8 @@ MadeFolder::MadeFolder(MadeFolder&& other) noexcept
 MadeFolder::~MadeFolder() {
     if (topmost_.empty()) return;
     std::error_code code;
-    for (fs::path at = folder_; fs::remove(at, code) && at != topmost_;) at = at.parent_path();
+    // Folders that were not made, or hold something, stay.
+    for (fs::path at = folder_; fs::remove(at, code), at != topmost_;) at = at.parent_path();
 }
 
 Status write_into_folder(const fs::path& folder, std::span<const FileContent> files) {

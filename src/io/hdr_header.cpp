@@ -58,12 +58,12 @@ bool near(const Primaries& a, const Primaries& b) {
     return std::equal(a.begin(), a.end(), b.begin(), [](double x, double y) { return std::abs(x - y) < 0.002; });
 }
 
-/// The text after `key` where `line` begins with it.
+/// Returns the text after `key` if `line` begins with it.
 std::optional<std::string_view> value_of(std::string_view line, std::string_view key) {
     return line.starts_with(key) ? std::optional(line.substr(key.size())) : std::nullopt;
 }
 
-/// The lines of the header with their places. Lines end at '\n'; a '\r' before it is dropped.
+/// Iterates over the lines of the header, with their offsets. Lines end at '\n'; a '\r' before it is dropped.
 class Lines {
   public:
     Lines(std::span<const std::byte> bytes, std::string_view name) : bytes_(bytes), name_(name) {}
@@ -95,7 +95,7 @@ class Lines {
 };
 
 Status apply_exposure(HdrHeader& header, const std::array<double, 3>& factors, const Lines& lines) {
-    // The product must leave room for float: its inverse multiplies texels of up to 2^127.
+    // Bound the product: its inverse multiplies texels of up to 2^127 in float.
     constexpr double k_least = 1e-30, k_most = 1e30;
     for (std::size_t i = 0; i < 3; ++i) {
         header.multiplier[i] *= factors[i];
@@ -109,11 +109,11 @@ Status apply_exposure(HdrHeader& header, const std::array<double, 3>& factors, c
 Status apply_primaries(HdrHeader& header, std::string_view value, const Lines& lines) {
     const auto primaries = numbers<8>(value);
     if (!primaries) return lines.error("PRIMARIES is not eight numbers");
-    // Some programs write zeros where they do not know.
+    // Some programs write zeros for unknown primaries.
     if (std::all_of(primaries->begin(), primaries->end(), [](double p) { return p == 0; })) return Done{};
     const Chromaticity white{(*primaries)[6], (*primaries)[7]};
     if (!(white.x > 0 && white.y > 0 && white.x + white.y < 1))
-        return lines.error("the white of PRIMARIES is no chromaticity");
+        return lines.error("the white of PRIMARIES is not a chromaticity");
     header.white = white;
     header.foreign_primaries = !near(*primaries, k_rec709) && !near(*primaries, k_radiance);
     return Done{};
@@ -130,7 +130,7 @@ Status apply_format(HdrHeader& header, std::string_view value, const Lines& line
     return Done{};
 }
 
-/// The variables of one line; lines of other programs pass.
+/// Applies the variable of one line; unknown lines are ignored.
 Status apply_line(HdrHeader& header, std::string_view line, const Lines& lines) {
     if (const auto value = value_of(line, "FORMAT=")) return apply_format(header, *value, lines);
     if (const auto value = value_of(line, "PRIMARIES=")) return apply_primaries(header, *value, lines);

@@ -14,8 +14,8 @@
 
 namespace lobelia::io {
 
-/// How scanlines lie in the picture. A scanline is a row, or a column where `columns`; x or y is reversed where the
-/// file stores it from right to left or from the bottom up.
+/// Orientation of scanlines. A scanline is a row, or a column if `columns`; x or y is reversed if the file stores it
+/// from right to left or from the bottom up.
 struct HdrOrientation {
     bool columns = false;
     bool x_reversed = false;
@@ -25,16 +25,16 @@ struct HdrOrientation {
 struct HdrHeader {
     enum class Encoding { rgbe, xyze };
     Encoding encoding = Encoding::rgbe;
-    /// What the pixels were multiplied by: all EXPOSURE and COLORCORR lines together.
+    /// Factors in the pixels: all EXPOSURE and COLORCORR lines multiplied together.
     std::array<double, 3> multiplier{1, 1, 1};
     /// The white of PRIMARIES, or Radiance's own.
     Chromaticity white = k_equal_energy;
-    /// Whether PRIMARIES are given and are neither Rec. 709's nor Radiance's.
+    /// True if PRIMARIES are given and are neither Rec. 709's nor Radiance's.
     bool foreign_primaries = false;
     HdrOrientation orientation;
     std::int64_t width = 0;
     std::int64_t height = 0;
-    /// Where the first scanline begins.
+    /// Byte at which the first scanline begins.
     std::size_t end = 0;
     std::vector<std::string> warnings;
 };

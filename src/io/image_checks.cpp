@@ -1,4 +1,4 @@
-// What every image reader shares: the limits on size, and the inspection of decoded pixels.
+// Checks that all image readers share: limits on the size, and NaN, infinite or negative pixels.
 #include "io/image_checks.h"
 
 #include <fmt/format.h>
@@ -11,7 +11,7 @@ namespace lobelia::io {
 
 namespace {
 
-/// Sums of squares of more would leave float32; the sun has 1e7 W/(m^2 sr).
+/// Sums of squares of larger values would overflow float32; the sun has 1e7 W/(m^2 sr).
 constexpr float k_most_radiance = 1e15f;
 
 enum class Fault { none, nan, infinite, negative };
@@ -53,7 +53,7 @@ Status check_size(std::string_view name, std::int64_t width, std::int64_t height
 }
 
 void clip_negatives(LoadedImage& loaded, std::string_view cause) {
-    // Rounding is small beside what is there; more than that is a fault of the file.
+    // Find the largest component: rounding is small compared with it, and more than that is a fault of the file.
     float largest = 0;
     for (const Rgb& pixel : loaded.image.pixels) largest = std::max({largest, pixel.r, pixel.g, pixel.b});
     std::size_t clipped = 0;
@@ -67,8 +67,8 @@ void clip_negatives(LoadedImage& loaded, std::string_view cause) {
             fmt::format("the negative components of {} pixels were set to 0: {}", clipped, cause));
 }
 
-Result<LoadedImage> inspected(LoadedImage loaded, std::string_view name, const ReadOptions& options) {
-    // Count the pixels that are no radiance, and replace their faulty components where allowed.
+Status check_pixels(LoadedImage& loaded, std::string_view name, const ReadOptions& options) {
+    // Count invalid pixels, and replace their invalid components if allowed.
     BadPixels bad;
     std::optional<std::size_t> first;
     for (std::size_t i = 0; i < loaded.image.pixels.size(); ++i) {
@@ -79,23 +79,30 @@ Result<LoadedImage> inspected(LoadedImage loaded, std::string_view name, const R
         if (!first) first = i;
         if (options.sanitize) pixel = sanitized(pixel);
     }
+    if (!first) return Done{};
 
-    // Refuse the image with the first place, unless they were replaced.
-    if (first && !options.sanitize)
+    // Refuse the image with the first place, or report the replacements.
+    if (!options.sanitize)
         return Error{fmt::format(
             "{}: {} NaN, {} infinite (or above 1e15) and {} negative pixels, the first at x = {}, y = {}; pass "
             "--sanitize to replace them by 0",
             name, bad.nan, bad.infinite, bad.negative, *first % loaded.image.width, *first / loaded.image.width)};
     loaded.sanitized = bad;
-    if (first)
-        loaded.warnings.push_back(fmt::format("{} NaN, {} infinite and {} negative pixels were replaced by 0", bad.nan,
-                                              bad.infinite, bad.negative));
+    loaded.warnings.push_back(fmt::format("{} NaN, {} infinite and {} negative pixels were replaced by 0", bad.nan,
+                                          bad.infinite, bad.negative));
+    return Done{};
+}
 
-    // Warn of a shape that no latitude-longitude map has.
-    if (loaded.image.width != 2 * loaded.image.height)
-        loaded.warnings.push_back(
-            fmt::format("the image is {} x {} pixels, not 2 : 1; it is stretched over the whole sphere",
-                        loaded.image.width, loaded.image.height));
+void warn_of_shape(LoadedImage& loaded) {
+    const std::size_t width = loaded.image.width, height = loaded.image.height;
+    if (width != 2 * height)
+        loaded.warnings.push_back(fmt::format(
+            "the image is {} x {} pixels, not 2 : 1; it is stretched over the whole sphere", width, height));
+}
+
+Result<LoadedImage> inspected(LoadedImage loaded, std::string_view name, const ReadOptions& options) {
+    if (const Status status = check_pixels(loaded, name, options); !status) return status.error();
+    warn_of_shape(loaded);
     return loaded;
 }
 

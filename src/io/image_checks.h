@@ -1,4 +1,4 @@
-// What every image reader shares: the limits on size, and the inspection of decoded pixels.
+// Checks that all image readers share: limits on the size, and NaN, infinite or negative pixels.
 #pragma once
 
 #include <cstdint>
@@ -7,18 +7,24 @@
 
 namespace lobelia::io {
 
-/// No image is wider or higher than this.
+/// Largest width and height of an image that is read or written.
 inline constexpr std::int64_t k_most_side = 65536;
 
-/// An error for a size that is 0, negative, or above a limit.
+/// Returns an error for a size that is 0, negative, or above a limit.
 [[nodiscard]] Status check_size(std::string_view name, std::int64_t width, std::int64_t height,
                                 const ReadOptions& options);
 
-/// Sets negative components to 0 where they are small beside the largest (1 %), and says so in a warning that gives
-/// `cause`: for those that arise in decoding valid files, and are not faults of theirs.
+/// Sets negative components to 0 if they are small compared with the largest component (1 %), with a warning that names
+/// `cause`: for values that arise in decoding valid files.
 void clip_negatives(LoadedImage& loaded, std::string_view cause);
 
-/// Counts, and replaces where `options.sanitize` says so, components that are no radiance; warns of an odd aspect.
+/// Counts pixels that are NaN, infinite or negative: an error, or replaced by 0 with a warning if options.sanitize.
+[[nodiscard]] Status check_pixels(LoadedImage& loaded, std::string_view name, const ReadOptions& options);
+
+/// Adds a warning if the image is not twice as wide as high, as a latitude-longitude map is.
+void warn_of_shape(LoadedImage& loaded);
+
+/// check_pixels, then warn_of_shape.
 [[nodiscard]] Result<LoadedImage> inspected(LoadedImage loaded, std::string_view name, const ReadOptions& options);
 
 }  // namespace lobelia::io

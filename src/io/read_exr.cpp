@@ -1,6 +1,4 @@
-// OpenEXR environments: planes are read straight into the image, which is all the memory that a large one needs.
-#include "io/read_exr.h"
-
+// OpenEXR environments: channels are read straight into the image, which is all the memory that a large one needs.
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
@@ -16,15 +14,18 @@
 #include <cmath>
 #include <optional>
 
-#include "io/exr_headers.h"
-#include "io/exr_parts.h"
+#include "io/exr_checks.h"
+#include "io/exr_envmap.h"
+#include "io/exr_windows.h"
 #include "io/image_checks.h"
 
-namespace lobelia::io {
+namespace lobelia {
 
 namespace {
 
-/// The channels that are read: prefix.R and so on.
+using namespace io;
+
+/// The channels to read: prefix.R and so on.
 struct Choice {
     enum class Kind { rgb, luminance, luminance_chroma };
     Kind kind = Kind::rgb;
@@ -37,7 +38,7 @@ bool has_rgb(const Imf::ChannelList& channels, const std::string& prefix) {
            channels.findChannel(prefix + "B");
 }
 
-/// The plain channels of a part.
+/// Returns the channels of a part without a prefix, if they are colour or luminance.
 std::optional<Choice> plain_channels(const Imf::Header& header, int part) {
     const Imf::ChannelList& channels = header.channels();
     if (has_rgb(channels, "")) return Choice{Choice::Kind::rgb, part, ""};
@@ -46,7 +47,7 @@ std::optional<Choice> plain_channels(const Imf::Header& header, int part) {
     return Choice{chroma ? Choice::Kind::luminance_chroma : Choice::Kind::luminance, part, ""};
 }
 
-/// The first layer of a part, by name, that has R, G and B.
+/// Returns the first layer of a part, by name, that has R, G and B.
 std::optional<Choice> layered_channels(const Imf::Header& header, int part) {
     for (auto c = header.channels().begin(); c != header.channels().end(); ++c) {
         const std::string name = c.name();
@@ -70,7 +71,7 @@ Result<Choice> choose(const Imf::MultiPartInputFile& file, std::string_view name
     return Error{fmt::format("{}: no part of the OpenEXR file has the channels R, G, B or Y", name)};
 }
 
-/// Whether a compression may turn 0 into a small negative number.
+/// Returns true for compressions that may turn 0 into a small negative number.
 bool crosses_zero(Imf::Compression compression) {
     return compression == Imf::B44_COMPRESSION || compression == Imf::B44A_COMPRESSION ||
            compression == Imf::DWAA_COMPRESSION || compression == Imf::DWAB_COMPRESSION;
@@ -81,7 +82,7 @@ Status check_choice(const Imf::Header& header, const Choice& choice, std::string
     const std::uint64_t channels = choice.kind == Choice::Kind::rgb ? 3 : 1;
     if (const Status status = check_part(header, name, file_bytes, channels, options); !status) return status;
 
-    // Only chroma may be stored at a lower rate.
+    // Only chroma may be sampled at a lower rate.
     const bool chroma = choice.kind == Choice::Kind::luminance_chroma;
     for (const char* channel : {"R", "G", "B", "Y", "RY", "BY"}) {
         const int rate = chroma && (channel[1] == 'Y') ? 2 : 1;
@@ -145,55 +146,69 @@ std::vector<std::string> warnings_about(const Imf::MultiPartInputFile& file, con
     return warnings;
 }
 
-/// Everything that may throw: faults of the file arrive as exceptions of OpenEXR.
+/// Moves the stored pixels to where they are displayed.
+LoadedImage on_display(LoadedImage loaded, const Imf::Header& header) {
+    const ExrWindow data = data_window(header), display = display_window(header);
+    if (data == display) return loaded;
+    for (std::string& warning : warnings_about_windows(header)) loaded.warnings.push_back(std::move(warning));
+    Image image;
+    image.width = static_cast<std::size_t>(display.width());
+    image.height = static_cast<std::size_t>(display.height());
+    image.pixels = placed(std::move(loaded.image.pixels), data, display);
+    loaded.image = std::move(image);
+    return loaded;
+}
+
+/// Decodes an environment; OpenEXR reports faults of the file as exceptions.
 Result<LoadedImage> decode(ExrInput& in, std::string_view name, const ReadOptions& options) {
-    // Choose the channels. A missing table of chunks is not searched for: such files are incomplete.
+    // Choose the channels. A missing table of chunks is not reconstructed: such files are incomplete.
     Imf::MultiPartInputFile file(in, Imf::globalThreadCount(), false);
     const Result<Choice> choice = choose(file, name);
     if (!choice) return choice.error();
     const Imf::Header& header = file.header(choice->part);
     if (const Status status = check_choice(header, *choice, name, in.size(), options); !status) return status.error();
 
-    // Read them.
-    const ExrSize size = size_of(header);
-    LoadedImage loaded{Image(static_cast<std::size_t>(size.width), static_cast<std::size_t>(size.height)),
+    // Read them as stored.
+    const ExrWindow data = data_window(header);
+    LoadedImage loaded{Image(static_cast<std::size_t>(data.width()), static_cast<std::size_t>(data.height())),
                        warnings_about(file, *choice),
                        {}};
     if (choice->kind == Choice::Kind::luminance_chroma) {
         read_luminance_chroma(in, loaded.image);
         clip_negatives(loaded, "rounding of luminance and chroma");
-        return loaded;
+    } else {
+        read_planes(file, *choice, loaded.image);
+        if (choice->kind == Choice::Kind::luminance)
+            for (Rgb& pixel : loaded.image.pixels) pixel = {pixel.r, pixel.r, pixel.r};
+        if (crosses_zero(header.compression())) clip_negatives(loaded, "rounding of its lossy compression");
     }
-    read_planes(file, *choice, loaded.image);
-    if (choice->kind == Choice::Kind::luminance)
-        for (Rgb& pixel : loaded.image.pixels) pixel = {pixel.r, pixel.r, pixel.r};
-    if (crosses_zero(header.compression())) clip_negatives(loaded, "rounding of its lossy compression");
+
+    // Bring them to the display window, check them, and convert to Lobelia's latitude-longitude map.
+    loaded = on_display(std::move(loaded), header);
+    if (const Status status = check_pixels(loaded, name, options); !status) return status.error();
+    return to_latitude_longitude(std::move(loaded), header, name, options);
+}
+
+Result<LoadedImage> read(ExrInput& in, std::string_view name, const ReadOptions& options) {
+    if (const Status status = check_exr_headers(in, name, options); !status) return status.error();
+    auto loaded = without_exceptions(in, name, [&] { return decode(in, name, options); });
+    if (loaded) warn_of_shape(*loaded);
     return loaded;
 }
 
 }  // namespace
 
-Result<LoadedImage> read_exr(ExrInput& in, std::string_view name, const ReadOptions& options) {
-    if (const Status status = check_exr_headers(in, name, options); !status) return status.error();
-    try {
-        Result<LoadedImage> loaded = decode(in, name, options);
-        if (!loaded) return loaded;
-        return inspected(std::move(*loaded), name, options);
-    } catch (const std::exception& error) {
-        return Error{fmt::format("{}: damaged or incomplete OpenEXR: {} (near byte {} of {})", name, error.what(),
-                                 in.tellg(), in.size())};
-    }
-}
-
-}  // namespace lobelia::io
-
-namespace lobelia {
-
 void allow_reader_threads(int count) { Imf::setGlobalThreadCount(count); }
 
+Result<LoadedImage> read_exr(InputFile file, const ReadOptions& options) {
+    const std::string name = file.name();
+    FileInput in(std::move(file));
+    return read(in, name, options);
+}
+
 Result<LoadedImage> read_exr(std::span<const std::byte> bytes, std::string_view name, const ReadOptions& options) {
-    io::MemoryInput in(bytes, std::string(name));
-    return io::read_exr(in, name, options);
+    MemoryInput in(bytes, std::string(name));
+    return read(in, name, options);
 }
 
 }  // namespace lobelia

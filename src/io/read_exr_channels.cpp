@@ -1,4 +1,4 @@
-// Any float channels of an OpenEXR file by name; planes are read in place, each into its own memory.
+// Any float channels of an OpenEXR file by name; each is read straight into its own memory.
 #include "io/read_exr_channels.h"
 
 #include <OpenEXR/ImfChannelList.h>
@@ -8,18 +8,16 @@
 #include <OpenEXR/ImfThreading.h>
 #include <fmt/format.h>
 
-#include <cerrno>
-#include <system_error>
+#include <algorithm>
 
-#include "io/exr_headers.h"
-#include "io/exr_parts.h"
-#include "io/exr_stream.h"
+#include "io/exr_checks.h"
+#include "io/exr_windows.h"
 
 namespace lobelia {
 
 namespace {
 
-/// The channels to read, by name.
+/// Returns the names of the channels to read.
 Result<std::vector<std::string>> chosen(const Imf::Header& header, std::string_view name,
                                         const ReadChannelsOptions& options) {
     std::vector<std::string> names = options.wanted;
@@ -33,10 +31,10 @@ Result<std::vector<std::string>> chosen(const Imf::Header& header, std::string_v
     return names;
 }
 
-/// Everything that may throw: faults of the file arrive as exceptions of OpenEXR.
+/// Decodes the channels; OpenEXR reports faults of the file as exceptions.
 Result<ExrPlanes> decode(io::ExrInput& in, std::string_view name, const ReadChannelsOptions& options,
                          const ReadOptions& limits) {
-    // Choose the channels and see to their size. A missing table of chunks is not searched for.
+    // Choose the channels and check their size. A missing table of chunks is not reconstructed.
     Imf::MultiPartInputFile file(in, Imf::globalThreadCount(), false);
     const Imf::Header& header = file.header(0);
     if (io::is_deep(header)) return Error{fmt::format("{}: a deep OpenEXR image", name)};
@@ -44,25 +42,26 @@ Result<ExrPlanes> decode(io::ExrInput& in, std::string_view name, const ReadChan
     if (!names) return names.error();
     if (const Status status = io::check_part(header, name, in.size(), names->size(), limits); !status)
         return status.error();
-    const io::ExrSize size = io::size_of(header);
+    const io::ExrWindow data = io::data_window(header), display = io::display_window(header);
     ExrPlanes result{
-        static_cast<std::size_t>(size.width), static_cast<std::size_t>(size.height), *std::move(names), {}};
-    const std::size_t pixels = result.width * result.height;
+        static_cast<std::size_t>(display.width()), static_cast<std::size_t>(display.height()), *std::move(names), {}};
+    const std::size_t pixels = std::max(data.pixels(), display.pixels());
     if (pixels > options.most_values / result.names.size())
         return Error{fmt::format("{}: {} channels of {} x {} pixels are more than {} values", name, result.names.size(),
-                                 size.width, size.height, options.most_values)};
+                                 result.width, result.height, options.most_values)};
 
     // Read them.
     Imf::InputPart part(file, 0);
     const auto& window = header.dataWindow();
+    const std::size_t row = static_cast<std::size_t>(data.width()) * sizeof(float);
     Imf::FrameBuffer target;
     for (const std::string& channel : result.names) {
-        float* plane = result.planes.emplace_back(pixels).data();
-        target.insert(channel,
-                      Imf::Slice::Make(Imf::FLOAT, plane, window, sizeof(float), result.width * sizeof(float)));
+        float* plane = result.planes.emplace_back(data.pixels()).data();
+        target.insert(channel, Imf::Slice::Make(Imf::FLOAT, plane, window, sizeof(float), row));
     }
     part.setFrameBuffer(target);
     part.readPixels(window.min.y, window.max.y);
+    for (auto& plane : result.planes) plane = io::placed(std::move(plane), data, display);
     return result;
 }
 
@@ -71,28 +70,16 @@ Result<ExrPlanes> read(io::ExrInput& in, std::string_view name, const ReadChanne
     limits.most_pixels = options.most_pixels;
     if (const Status status = io::check_exr_headers(in, name, limits, options.most_channels); !status)
         return status.error();
-    try {
-        return decode(in, name, options, limits);
-    } catch (const std::exception& error) {
-        return Error{fmt::format("{}: damaged or incomplete OpenEXR: {} (near byte {} of {})", name, error.what(),
-                                 in.tellg(), in.size())};
-    }
+    return io::without_exceptions(in, name, [&] { return decode(in, name, options, limits); });
 }
 
 }  // namespace
 
 Result<ExrPlanes> read_exr_channels(const std::filesystem::path& path, const ReadChannelsOptions& options) {
-    const std::string name = path.string();
-    std::error_code code;
-    const std::uintmax_t size =
-        std::filesystem::is_regular_file(path, code) ? std::filesystem::file_size(path, code) : 0;
-    if (!code && size == 0) return Error{name + ": empty, or not a regular file"};
-    errno = 0;
-    io::FileInput::Handle handle(code ? nullptr : std::fopen(path.c_str(), "rb"), std::fclose);
-    if (!handle)
-        return Error{
-            fmt::format("{}: cannot be read: {}", name, std::generic_category().message(code ? code.value() : errno))};
-    io::FileInput in(std::move(handle), size, name);
+    auto file = InputFile::open(path);
+    if (!file) return file.error();
+    const std::string name = file->name();
+    io::FileInput in(*std::move(file));
     return read(in, name, options);
 }
 

@@ -1,5 +1,4 @@
-// Any float channels of an OpenEXR file by name: lightmap pages and other images that are no pictures. Safe on any
-// bytes.
+// Any float channels of an OpenEXR file by name: lightmap pages and other images without colours. Safe on any bytes.
 #pragma once
 
 #include <cstddef>
@@ -14,15 +13,15 @@
 namespace lobelia {
 
 struct ReadChannelsOptions {
-    /// These channels in this order, each of which must be there; empty: all, as OpenEXR sorts them (by name).
+    /// The channels to read, in this order; an error if one is missing. Empty: all, sorted by name.
     std::vector<std::string> wanted = {};
-    /// Larger files are refused before anything is allocated for them.
+    /// Limits; larger files are refused before anything is allocated for them.
     std::size_t most_pixels = std::size_t{1} << 28;
     std::size_t most_channels = 4096;
     std::size_t most_values = std::size_t{1} << 31;  ///< pixels times channels that are read
 };
 
-/// Planes of width * height floats, row by row from the top left. Any float may be among them, NaN included.
+/// Planes of width * height floats, row by row from the top left. Any float may occur, NaN included.
 struct ExrPlanes {
     std::size_t width = 0;
     std::size_t height = 0;
@@ -30,8 +29,9 @@ struct ExrPlanes {
     std::vector<std::vector<float>> planes;
 };
 
-/// The first part's channels, half, float or whole numbers, all as floats; scan lines or tiles (level 0). Errors name
-/// the file and the channel or place.
+/// Reads channels of the first part, of halves, floats or whole numbers, as floats; scan lines or tiles (level 0). The
+/// planes cover the display window; pixels outside the data window are 0. Errors name the file and the channel or
+/// place.
 [[nodiscard]] Result<ExrPlanes> read_exr_channels(const std::filesystem::path& path,
                                                   const ReadChannelsOptions& options = {});
 [[nodiscard]] Result<ExrPlanes> read_exr_channels(std::span<const std::byte> bytes, std::string_view name,

@@ -1,50 +1,93 @@
-// Files read whole, into memory.
+// Files made by others, opened with care, by POSIX calls.
 #include "io/read_file.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
-#include <cstdio>
-#include <memory>
 #include <system_error>
 
 namespace lobelia {
 
 namespace {
 
-template <class Bytes>
-Result<Bytes> read_whole(const std::filesystem::path& path, std::size_t most_bytes) {
-    // Ask for the kind and the size before opening: a pipe would wait for ever.
-    const std::string name = path.string();
-    const auto failed = [&](int code) {
-        return Error{fmt::format("{}: cannot be read: {}", name, std::generic_category().message(code))};
-    };
-    std::error_code code;
-    const auto status = std::filesystem::status(path, code);
-    if (!std::filesystem::exists(status)) return failed(code ? code.value() : ENOENT);
-    if (!std::filesystem::is_regular_file(status)) return Error{fmt::format("{}: not a regular file", name)};
-    const std::uintmax_t size = std::filesystem::file_size(path, code);
-    if (code) return failed(code.value());
-    if (size > most_bytes) return Error{fmt::format("{}: {} bytes; at most {} are read", name, size, most_bytes)};
+Error read_failure(std::string_view name, int code) {
+    return Error{fmt::format("{}: cannot be read: {}", name, std::generic_category().message(code))};
+}
 
-    // Read what was promised, and see that it is all.
-    errno = 0;
-    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), std::fclose);
-    if (!file) return failed(errno);
-    Bytes bytes(size, {});
-    if (std::fread(bytes.data(), 1, bytes.size(), file.get()) != bytes.size() || std::fgetc(file.get()) != EOF)
-        return std::ferror(file.get()) ? failed(errno) : Error{fmt::format("{}: changed while it was read", name)};
+Status check_kind(std::string_view name, const struct stat& status) {
+    if (S_ISREG(status.st_mode)) return Done{};
+    if (S_ISDIR(status.st_mode)) return Error{fmt::format("{}: a folder, not a regular file", name)};
+    if (S_ISLNK(status.st_mode)) return Error{fmt::format("{}: a symbolic link, not a regular file", name)};
+    const char* const kind = S_ISFIFO(status.st_mode) ? "pipe" : S_ISSOCK(status.st_mode) ? "socket" : "device";
+    return Error{fmt::format("{}: a {}, not a regular file; write its content to a file first", name, kind)};
+}
+
+template <class Bytes>
+Result<Bytes> read_whole(const InputFile& file) {
+    Bytes bytes(static_cast<std::size_t>(file.size()), {});
+    if (const Status status = file.read(0, std::as_writable_bytes(std::span(bytes))); !status) return status.error();
+    std::array<std::byte, 1> more{};
+    if (file.read(file.size(), more)) return Error{fmt::format("{}: changed while it was read", file.name())};
     return bytes;
 }
 
+template <class Bytes>
+Result<Bytes> read_whole(const std::filesystem::path& path, std::uint64_t most_bytes) {
+    const auto file = InputFile::open(path, {.most_bytes = most_bytes});
+    if (!file) return file.error();
+    return read_whole<Bytes>(*file);
+}
+
 }  // namespace
+
+Result<InputFile> InputFile::open(const std::filesystem::path& path, const InputOptions& options) {
+    // Refuse what is not a regular file before opening it: a pipe would wait, a device might act.
+    std::string name = path.string();
+    const bool follow = options.links == InputOptions::Links::followed;
+    struct stat status {};
+    if ((follow ? ::stat(path.c_str(), &status) : ::lstat(path.c_str(), &status)) != 0)
+        return read_failure(name, errno);
+    if (const Status kind = check_kind(name, status); !kind) return kind.error();
+
+    // Open it, and check what was really opened: the path may name another file by now.
+    const int flags = O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY | (follow ? 0 : O_NOFOLLOW);
+    io::Descriptor descriptor(::open(path.c_str(), flags));
+    if (!descriptor.is_open() || ::fstat(descriptor.get(), &status) != 0) return read_failure(name, errno);
+    if (const Status kind = check_kind(name, status); !kind) return kind.error();
+    const auto size = static_cast<std::uint64_t>(status.st_size);
+    if (size > options.most_bytes)
+        return Error{fmt::format("{}: {} bytes; at most {} are read", name, size, options.most_bytes)};
+    return InputFile(std::move(descriptor), std::move(name), size);
+}
+
+Status InputFile::read(std::uint64_t position, std::span<std::byte> target) const {
+    // Linux reads at most 2 GiB at once.
+    constexpr std::size_t k_most = std::size_t{1} << 30;
+    while (!target.empty()) {
+        const ssize_t count =
+            ::pread(descriptor_.get(), target.data(), std::min(target.size(), k_most), static_cast<off_t>(position));
+        if (count < 0 && errno == EINTR) continue;
+        if (count < 0) return read_failure(name_, errno);
+        if (count == 0) return Error{fmt::format("{}: the file ends too early", name_)};
+        position += static_cast<std::uint64_t>(count);
+        target = target.subspan(static_cast<std::size_t>(count));
+    }
+    return Done{};
+}
 
 Result<std::vector<std::byte>> read_file(const std::filesystem::path& path, std::size_t most_bytes) {
     return read_whole<std::vector<std::byte>>(path, most_bytes);
 }
 
+Result<std::vector<std::byte>> read_file(const InputFile& file) { return read_whole<std::vector<std::byte>>(file); }
+
 Result<std::string> read_text(const std::filesystem::path& path, std::size_t most_mebibytes) {
-    return read_whole<std::string>(path, most_mebibytes << 20);
+    return read_whole<std::string>(path, std::uint64_t{most_mebibytes} << 20);
 }
 
 }  // namespace lobelia

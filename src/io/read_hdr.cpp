@@ -1,5 +1,5 @@
-// Radiance pictures (.hdr, .pic). An own parser, because stb_image reads one orientation of eight, only RGBE, and the
-// newer of the two run-length schemes. After Ward, "Real Pixels" (1991).
+// Radiance pictures (.hdr, .pic), in every orientation and run-length scheme, RGBE and XYZE. After Ward, "Real Pixels"
+// (1991).
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ using io::HdrOrientation;
 /// Mantissas and the common exponent, as stored.
 using StoredTexel = std::array<std::uint8_t, 4>;
 
-/// What is wrong with a scanline; nothing where it was decoded.
+/// The fault of a scanline; empty if it was decoded.
 using Problem = std::optional<std::string>;
 
 constexpr const char* k_truncated = "the file ends too early";
@@ -94,13 +94,13 @@ Problem decode_component(Cursor& in, std::span<StoredTexel> line, std::size_t co
     return std::nullopt;
 }
 
-/// A scanline in whichever scheme its first bytes tell.
+/// Decodes a scanline in the scheme that its first bytes indicate.
 Problem decode_scanline(Cursor& in, std::span<StoredTexel> line) {
     const bool may_be_new = line.size() >= k_least_new_rle && line.size() <= k_most_new_rle && in.remaining() >= 4;
     if (!may_be_new || in.peek(0) != 2 || in.peek(1) != 2 || in.peek(2) > 127) return decode_flat_or_old_rle(in, line);
     const StoredTexel head = in.take_texel();
     const std::size_t length = head[2] * 256u + head[3];
-    if (length != line.size()) return fmt::format("a scanline says that it has {} texels, not {}", length, line.size());
+    if (length != line.size()) return fmt::format("a scanline states {} texels, not {}", length, line.size());
     for (std::size_t component = 0; component < 4; ++component)
         if (Problem problem = decode_component(in, line, component)) return problem;
     return std::nullopt;
@@ -119,13 +119,13 @@ std::size_t least_scanline_bytes(std::size_t length) {
     return bytes;
 }
 
-/// From stored texels to linear Rec. 709.
+/// Converts stored texels to linear Rec. 709.
 class TexelDecoder {
   public:
     explicit TexelDecoder(const HdrHeader& header) {
         // A component is m * 2^(E - 128) / 256, without half a step added; E = 0 is black.
         for (int e = 1; e < 256; ++e) power_[static_cast<std::size_t>(e)] = std::ldexp(1.0f, e - 136);
-        // The columns of the matrix are the colours of the unit texels: linear, so three of them tell all.
+        // The columns of the matrix are the colours of the unit texels, as the conversion is linear.
         for (std::size_t i = 0; i < 3; ++i) {
             const std::array<double, 3> unit{i == 0 ? 1.0 : 0.0, i == 1 ? 1.0 : 0.0, i == 2 ? 1.0 : 0.0};
             const Rgb colour =
@@ -152,7 +152,7 @@ class TexelDecoder {
     std::array<Rgb, 3> columns_{};
 };
 
-/// Where texel `i` of scanline `line` belongs in a picture stored row by row from the top left.
+/// Index of texel `i` of scanline `line` in an image stored row by row from the top left.
 std::size_t pixel_index(const Image& image, const HdrOrientation& orientation, std::size_t line, std::size_t i) {
     std::size_t x = orientation.columns ? line : i;
     std::size_t y = orientation.columns ? i : line;
@@ -162,7 +162,7 @@ std::size_t pixel_index(const Image& image, const HdrOrientation& orientation, s
 }
 
 Result<LoadedImage> decode(std::span<const std::byte> bytes, std::string_view name, const HdrHeader& header) {
-    // Refuse a file that is too short for its size before anything is allocated for it.
+    // Refuse a file that is too short for its size, before allocating.
     const auto width = static_cast<std::size_t>(header.width), height = static_cast<std::size_t>(header.height);
     const std::size_t lines = header.orientation.columns ? width : height;
     const std::size_t length = header.orientation.columns ? height : width;

@@ -1,14 +1,12 @@
-// Files that are written whole or not at all, by POSIX calls: streams of C++ cannot tell why a write failed.
+// Files that are written whole or not at all, by POSIX calls: C++ streams do not report why a write failed.
 #include "io/staged_file.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <signal.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
-#include <charconv>
 #include <optional>
 #include <system_error>
 
@@ -20,8 +18,8 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view k_temporary_prefix = ".lobelia-", k_temporary_extension = ".tmp";
 
-/// A new file of the folder of `path` under a name that no other process or thread has, made by `create(name)`, which
-/// tells whether it could. Files that are staged at the same time differ in the hash of their names.
+/// Creates a file beside `path` under a name that no other process or thread uses, by `create(name)`, which returns
+/// false if it cannot. Files staged at the same time differ in the hash of their names.
 template <class Create>
 std::optional<fs::path> create_named_beside(const fs::path& path, const Create& create) {
     constexpr int k_attempts = 1000;
@@ -35,7 +33,7 @@ std::optional<fs::path> create_named_beside(const fs::path& path, const Create& 
     return std::nullopt;
 }
 
-/// The end of a chain of links, which need not exist; an error where links lead in a circle.
+/// Returns the end of a chain of links, which need not exist; an error if links lead in a circle.
 Result<fs::path> followed(fs::path path) {
     constexpr int k_most_links = 40;
     for (int i = 0; i < k_most_links; ++i) {
@@ -63,7 +61,7 @@ StagedFile::~StagedFile() {
 }
 
 Result<StagedFile> StagedFile::create(const fs::path& path) {
-    // Find what it will replace.
+    // Find the file that it will replace.
     if (path.empty()) return Error{"a file name is missing"};
     const Result<fs::path> target = followed(path);
     if (!target) return target.error();
@@ -123,21 +121,6 @@ Status StagedFile::commit() {
     if (::rename(temporary_.c_str(), target_.c_str()) != 0) return io::write_failure(target_, errno);
     temporary_.clear();
     return Done{};
-}
-
-void remove_abandoned_files(const fs::path& folder) {
-    std::error_code code;
-    for (fs::directory_iterator entry(folder, code), end; !code && entry != end; entry.increment(code)) {
-        const std::string name = entry->path().filename().string();
-        if (!name.starts_with(k_temporary_prefix) || !name.ends_with(k_temporary_extension)) continue;
-        pid_t process = 0;
-        const char* const digits = name.data() + k_temporary_prefix.size();
-        if (std::from_chars(digits, name.data() + name.size(), process).ec != std::errc() || process <= 0) continue;
-        // A process that is there may still be writing.
-        if (::kill(process, 0) == 0 || errno != ESRCH) continue;
-        std::error_code ignored;
-        fs::remove(entry->path(), ignored);
-    }
 }
 
 }  // namespace lobelia

@@ -11,8 +11,8 @@
 namespace lobelia {
 
 /// Writes `bytes` to `path` under a temporary name in the same folder, flushes them to the disk and renames; on failure
-/// what was there before is untouched and the temporary is gone. Links are followed, and what is no regular file (a
-/// pipe, /dev/stdout) is written to directly. Errors name the file and the cause: no such folder, no permission, full.
+/// the old content is untouched and the temporary is gone. Links are followed; pipes and devices (/dev/stdout) are
+/// written to directly. Errors name the file and the cause: no such folder, no permission, full.
 [[nodiscard]] Status write_file_atomically(const std::filesystem::path& path, std::span<const std::byte> bytes);
 [[nodiscard]] Status write_file_atomically(const std::filesystem::path& path, std::string_view text);
 

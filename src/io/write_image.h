@@ -28,7 +28,7 @@ struct ExrChannel {
     std::string name;
     std::span<const float> data;
     std::size_t stride = 1;
-    std::optional<ExrOptions::Precision> precision = std::nullopt;  ///< if not that of the options
+    std::optional<ExrOptions::Precision> precision = std::nullopt;  ///< default: that of the options
 };
 
 /// The bytes of a scan-line OpenEXR file (ZIP). Channels have distinct names and reach all width * height pixels.

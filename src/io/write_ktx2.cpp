@@ -16,7 +16,7 @@
 namespace lobelia {
 namespace {
 
-/// Bytes in the file's order, little-endian.
+/// A buffer of little-endian numbers, as in the file.
 class Bytes {
   public:
     void u32(std::uint64_t value) { number(value, 4); }
@@ -43,20 +43,20 @@ constexpr std::array<std::uint32_t, 4> k_rgba = {0, 1, 2, 15};
 constexpr std::uint32_t k_exponent = 0x20, k_signed = 0x40, k_float = 0x80;
 constexpr std::uint32_t k_one = std::bit_cast<std::uint32_t>(1.0f), k_minus_one = std::bit_cast<std::uint32_t>(-1.0f);
 
-/// Bits of a block that hold a channel, and what of them counts as -1 or 0, and 1.
+/// Bits of a block that hold a channel, and the stored values that mean -1 or 0 (lower) and 1 (upper).
 struct Sample {
     std::uint32_t first_bit, bits, channel;  ///< with qualifiers
     std::uint32_t lower, upper;
 };
 
-/// What the file says of a pixel format, besides its VkFormat.
+/// Description of a pixel format in the file, besides its VkFormat.
 struct FormatFacts {
     std::uint32_t model = 1;       ///< RGBSDA, or 133, BC6H
-    std::uint32_t type_bytes = 1;  ///< of what would be swapped between byte orders
+    std::uint32_t type_bytes = 1;  ///< size of the unit that byte swapping reverses
     std::vector<Sample> samples;
 };
 
-/// Channels of one size, from the first bit on.
+/// Channels of equal size, starting at bit 0.
 FormatFacts floats(std::uint32_t count, std::uint32_t bits) {
     FormatFacts facts{1, bits / 8, {}};
     for (std::uint32_t i = 0; i < count; ++i)
@@ -157,7 +157,7 @@ Bytes key_values(std::map<std::string, std::string> metadata) {
     return bytes;
 }
 
-/// All before the texels; they begin at a multiple of a block's size and of 4.
+/// Everything before the texels, which begin at a multiple of the block size and of 4.
 Bytes beginning(const Ktx2Texture& texture) {
     constexpr std::size_t k_header = 80, k_level = 24;
     const FormatInfo& format = info(texture.format);

@@ -11,17 +11,16 @@
 namespace lobelia {
 
 struct Ktx2Texture {
-    /// What the file states by its VkFormat and its data format descriptor. Formats that have no VkFormat of their own
-    /// state the bytes that carry them, R8G8B8A8_UNORM; say in the metadata which they are.
+    /// Stated by the VkFormat and the data format descriptor of the file. Formats without a VkFormat are stated as the
+    /// bytes that carry them, R8G8B8A8_UNORM; the metadata should name them.
     PixelFormat format = PixelFormat::rgba16f;
     std::size_t width = 0, height = 0;  ///< texels, at least one each; (0, 0) is the top left
     std::span<const std::byte> data;    ///< byte_size(format, width, height) bytes
-    /// Texts for readers of the file, by keys that do not begin with "KTX". Orientation and writer are added.
+    /// Key-value texts; keys do not begin with "KTX". Orientation and writer are added.
     std::map<std::string, std::string> metadata;
 };
 
-/// Writes the texture; colours are stated to be linear with Rec. 709 primaries. An error for more than 65536 texels a
-/// side.
+/// Writes the texture as linear colours with Rec. 709 primaries. An error above 65536 texels a side.
 [[nodiscard]] Status write_ktx2(StagedFile& file, const Ktx2Texture& texture);
 
 }  // namespace lobelia

@@ -1,20 +1,12 @@
-// PNG pictures by stb_image_write, made in memory and written atomically.
-#define STB_IMAGE_WRITE_IMPLEMENTATION
-#define STB_IMAGE_WRITE_STATIC
-#define STBI_WRITE_NO_STDIO
-#if defined(__GNUC__)
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wunused-function"
-#pragma GCC diagnostic ignored "-Wmissing-field-initializers"
-#endif
-#include <stb/stb_image_write.h>
-#if defined(__GNUC__)
-#pragma GCC diagnostic pop
-#endif
-
+// PNG pictures by libpng, encoded in memory and written atomically.
 #include <fmt/format.h>
+#include <png.h>
+
+#include <cmath>
+#include <new>
 
 #include "core/math/colour.h"
+#include "io/escape.h"
 #include "io/image_checks.h"
 #include "io/write_file.h"
 #include "io/write_image.h"
@@ -27,30 +19,70 @@ std::uint8_t encoded(float linear, ToneCurve tone) {
     return static_cast<std::uint8_t>(std::lround(255 * srgb_from_linear(toned(tone, static_cast<double>(linear)))));
 }
 
-void append(void* target, void* data, int size) {
-    static_cast<std::string*>(target)->append(static_cast<const char*>(data), static_cast<std::size_t>(size));
-}
-
 struct PngSource {
     std::size_t width, height;
-    int channels;
+    std::size_t channels;  ///< 3 or 4
     std::span<const std::uint8_t> bytes;
 };
 
+/// State of libpng and the bytes that it has written.
+struct PngWriter {
+    PngWriter() = default;
+    PngWriter(const PngWriter&) = delete;
+    PngWriter& operator=(const PngWriter&) = delete;
+    ~PngWriter() { png_destroy_write_struct(&png, &info); }
+
+    png_structp png = nullptr;
+    png_infop info = nullptr;
+    io::Escape escape;
+    std::string bytes;
+};
+
+[[noreturn]] void leave(png_structp png, png_const_charp message) {
+    static_cast<PngWriter*>(png_get_error_ptr(png))->escape.leave(message);
+}
+void ignore_warning(png_structp, png_const_charp) {}
+
+bool appended(std::string& target, png_bytep data, std::size_t size) {
+    try {
+        target.append(reinterpret_cast<const char*>(data), size);
+        return true;
+    } catch (const std::bad_alloc&) {
+        return false;
+    }
+}
+
+void put_bytes(png_structp png, png_bytep data, std::size_t size) {
+    auto& writer = *static_cast<PngWriter*>(png_get_io_ptr(png));
+    if (!appended(writer.bytes, data, size)) writer.escape.leave("no memory for the encoded picture");
+}
+
+void write(PngWriter& writer, const PngSource& source) {
+    writer.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &writer, leave, ignore_warning);
+    writer.info = writer.png ? png_create_info_struct(writer.png) : nullptr;
+    if (!writer.info) writer.escape.leave("no memory for its encoder");
+    png_set_write_fn(writer.png, &writer, put_bytes, nullptr);
+    png_set_IHDR(writer.png, writer.info, static_cast<png_uint_32>(source.width),
+                 static_cast<png_uint_32>(source.height), 8,
+                 source.channels == 4 ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
+                 PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    png_write_info(writer.png, writer.info);
+    for (std::size_t y = 0; y < source.height; ++y)
+        png_write_row(writer.png, source.bytes.data() + y * source.width * source.channels);
+    png_write_end(writer.png, nullptr);
+}
+
 Result<std::string> encode(const PngSource& source) {
-    // stb_image_write counts bytes in int.
-    constexpr std::size_t k_most_pixels = std::size_t{1} << 28;
-    const std::size_t pixels = source.width * source.height;
-    if (pixels == 0 || source.width > io::k_most_side || source.height > io::k_most_side || pixels > k_most_pixels ||
-        source.bytes.size() != static_cast<std::size_t>(source.channels) * pixels)
+    constexpr auto k_most_side = static_cast<std::size_t>(io::k_most_side);
+    if (source.width == 0 || source.height == 0 || source.width > k_most_side || source.height > k_most_side ||
+        source.bytes.size() != source.channels * source.width * source.height)
         return Error{fmt::format("a picture of {} x {} pixels in {} bytes cannot be written", source.width,
                                  source.height, source.bytes.size())};
-    std::string bytes;
-    const int width = static_cast<int>(source.width), height = static_cast<int>(source.height);
-    if (!stbi_write_png_to_func(append, &bytes, width, height, source.channels, source.bytes.data(),
-                                source.channels * width))
-        return Error{fmt::format("a picture of {} x {} pixels cannot be encoded", width, height)};
-    return bytes;
+    PngWriter writer;
+    if (!writer.escape.run([&] { write(writer, source); }))
+        return Error{fmt::format("a picture of {} x {} pixels cannot be encoded: {}", source.width, source.height,
+                                 writer.escape.message())};
+    return std::move(writer.bytes);
 }
 
 }  // namespace

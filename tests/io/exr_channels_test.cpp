@@ -117,6 +117,23 @@ TEST(ExrChannels, EveryLayoutAndTypeIsRead) {
         }
 }
 
+TEST(ExrChannels, PlanesCoverTheDisplayWindow) {
+    const Image image = test_image(20, 10);
+    const std::string bytes =
+        make_exr(image, {.channels = {"x", "y", "z"}, .left = 3, .top = 2, .display = std::array{0, 0, 24, 9}});
+    const auto read = read_exr_channels(bytes_of(bytes), "planes.exr");
+    ASSERT_TRUE(read) << read.error().message;
+    ASSERT_EQ(read->width, 25u);
+    ASSERT_EQ(read->height, 10u);
+    for (std::size_t y = 0; y < 10; ++y)
+        for (std::size_t x = 0; x < 25; ++x) {
+            const bool stored = x >= 3 && x < 23 && y >= 2;
+            const Rgb expected = stored ? image.at(x - 3, y - 2) : Rgb{};
+            EXPECT_EQ((Rgb{read->planes[0][y * 25 + x], read->planes[1][y * 25 + x], read->planes[2][y * 25 + x]}),
+                      expected);
+        }
+}
+
 TEST(ExrChannels, TruncatedAtEveryByteIsAnError) {
     const std::string whole = encoded(ChannelPlanes(9, 20, 3));
     ASSERT_EQ(message_of(whole), "");
@@ -124,7 +141,7 @@ TEST(ExrChannels, TruncatedAtEveryByteIsAnError) {
         EXPECT_EQ(message_of(whole.substr(0, length)).rfind("planes.exr: ", 0), 0u) << length;
 }
 
-TEST(ExrChannels, WhatCannotBeReadIsRefused) {
+TEST(ExrChannels, UnsupportedFilesAreRefused) {
     const std::string bytes = encoded(ChannelPlanes(16, 8, 5));
     EXPECT_NE(message_of(bytes, {.wanted = {"c1.R", "c9.R"}}).find("no channel c9.R"), std::string::npos);
     EXPECT_NE(message_of(bytes, {.most_pixels = 127}).find("at most 127"), std::string::npos);

@@ -2,7 +2,6 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -10,6 +9,7 @@
 #include <filesystem>
 
 #include "folders.h"
+#include "io/folders.h"
 #include "io/read_image.h"
 #include "io/staged_file.h"
 #include "io/write_file.h"
@@ -129,7 +129,7 @@ TEST(WriteExr, NamedChannelsWithStrides) {
     EXPECT_EQ(loaded->image.pixels, (std::vector<Rgb>{{1, 10, 1}, {2, 20, 10}}));
 }
 
-TEST(WriteExr, WhatCannotBeStoredIsRefused) {
+TEST(WriteExr, InvalidChannelsAreRefused) {
     const std::vector<float> floats(8);
     using Channels = std::vector<ExrChannel>;
     EXPECT_FALSE(encode_exr(2, 2, Channels{}));
@@ -140,22 +140,44 @@ TEST(WriteExr, WhatCannotBeStoredIsRefused) {
     EXPECT_FALSE(encode_exr(Image()));
 }
 
-TEST(AbandonedFiles, OnlyThoseOfProcessesThatAreGoneAreRemoved) {
-    const test::TestFolder folder("abandoned");
-    // A process that has ended and been waited for.
-    const pid_t gone = ::fork();
-    if (gone == 0) ::_exit(0);
-    ASSERT_EQ(::waitpid(gone, nullptr, 0), gone);
-    const auto file = [&](const std::string& name) { return folder.path() / name; };
-    const std::string mine = ".lobelia-" + std::to_string(::getpid()) + "-a-0.tmp";
-    const std::string theirs = ".lobelia-" + std::to_string(gone) + "-a-0.tmp";
-    for (const std::string& name : {mine, theirs, std::string(".lobelia-x.tmp"), std::string("page-0.exr")})
-        test::overwrite(file(name), "x");
-    remove_abandoned_files(folder.path());
-    remove_abandoned_files(file("no such folder"));
-    EXPECT_FALSE(std::filesystem::exists(file(theirs)));
-    for (const std::string& name : {mine, std::string(".lobelia-x.tmp"), std::string("page-0.exr")})
-        EXPECT_TRUE(std::filesystem::exists(file(name))) << name;
+TEST(Folders, FailureLeavesNoFolder) {
+    const test::TestFolder folder("output");
+    const fs::path inner = folder.path() / "a" / "b" / "c";
+    const std::vector<FileContent> files{{inner / "first", "1"}, {inner / "missing" / "second", "2"}};
+    ASSERT_FALSE(write_into_folder(inner, files));
+    EXPECT_EQ(folder.entries(), 0u);
+    // A folder that was there, or that holds something, stays.
+    fs::create_directory(folder.path() / "a");
+    ASSERT_FALSE(write_into_folder(inner, files));
+    EXPECT_TRUE(fs::is_directory(folder.path() / "a"));
+    EXPECT_FALSE(fs::exists(folder.path() / "a" / "b"));
+    {
+        const auto made = MadeFolder::make(inner);
+        ASSERT_TRUE(made) << made.error().message;
+        test::overwrite(folder.path() / "a" / "b" / "other", "x");
+    }
+    EXPECT_FALSE(fs::exists(inner));
+    EXPECT_TRUE(fs::exists(folder.path() / "a" / "b" / "other"));
+}
+
+TEST(Folders, SuccessKeepsTheFolders) {
+    const test::TestFolder folder("output-kept");
+    for (const fs::path& inner :
+         {folder.path() / "a" / "b", folder.path() / "c" / "d" / "", folder.path() / "a" / "b"}) {
+        ASSERT_TRUE(write_into_folder(inner, std::vector<FileContent>{{inner / "file", "text"}}));
+        EXPECT_EQ(contents(inner / "file"), "text");
+    }
+}
+
+TEST(Folders, ImpossibleFoldersAreErrors) {
+    const test::TestFolder folder("output-bad");
+    test::overwrite(folder.path() / "file", "x");
+    for (const fs::path& bad : {folder.path() / "file", folder.path() / "file" / "inner"}) {
+        const auto made = MadeFolder::make(bad);
+        ASSERT_FALSE(made);
+        EXPECT_NE(made.error().message.find("cannot be made a folder"), std::string::npos) << made.error().message;
+    }
+    EXPECT_EQ(folder.entries(), 1u);
 }
 
 TEST(WritePng, RoundTripWithinHalfALevel) {
@@ -196,40 +218,6 @@ TEST(ToneCurve, RisesFromBlackToWhite) {
     EXPECT_EQ(levels(ToneCurve::clamp), (std::pair<std::uint8_t, std::uint8_t>(255, 255)));
     EXPECT_LT(levels(ToneCurve::filmic).first, levels(ToneCurve::filmic).second);
     EXPECT_EQ(levels(ToneCurve::reinhard).first, 188);  // one half
-}
-
-TEST(ReadLdr, PicturesNeedTheOption) {
-    const auto png = encode_png(to_srgb(test_image(16, 8), 0.02f));
-    ASSERT_TRUE(png);
-    const auto bytes = std::as_bytes(std::span(*png));
-    const auto loaded = read_environment(bytes, "picture.png");
-    ASSERT_FALSE(loaded);
-    EXPECT_NE(loaded.error().message.find("--ldr"), std::string::npos);
-    for (std::size_t length = 0; length + 12 < bytes.size(); ++length)  // the last 12 bytes hold no pixels
-        EXPECT_FALSE(read_environment(bytes.first(length), "picture.png", {.ldr = true})) << length;
-}
-
-TEST(ReadLdr, OversizedHuffmanTablesAreRefused) {
-    using namespace std::string_literals;
-    // A table that claims 16 * 20 codes, of which there can be 256.
-    const std::string segment =
-        "\xff\xc4"s + std::string("\x01\x53\x00", 3) + std::string(16, 20) + std::string(320, 'c');
-    const std::string jpeg = "\xff\xd8"s + segment + "\xff\xd9";
-    const auto loaded = read_environment(std::as_bytes(std::span(jpeg)), "picture.jpg", {.ldr = true});
-    ASSERT_FALSE(loaded);
-    EXPECT_NE(loaded.error().message.find("Huffman"), std::string::npos) << loaded.error().message;
-}
-
-TEST(ReadLdr, ChunksLongerThanTheFileAreRefused) {
-    const auto png = encode_png(to_srgb(test_image(16, 8), 0.02f));
-    ASSERT_TRUE(png);
-    // The length of the first chunk of image data, set to 1 GiB, for which stb_image would take two.
-    std::string damaged = *png;
-    const std::size_t at = damaged.find("IDAT") - 4;
-    damaged.replace(at, 4, std::string("\x40\0\0\0", 4));
-    const auto loaded = read_environment(std::as_bytes(std::span(damaged)), "picture.png", {.ldr = true});
-    ASSERT_FALSE(loaded);
-    EXPECT_NE(loaded.error().message.find("longer than the file"), std::string::npos) << loaded.error().message;
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include <OpenEXR/ImfOutputPart.h>
 #include <OpenEXR/ImfPartType.h>
 #include <OpenEXR/ImfRgbaFile.h>
+#include <OpenEXR/ImfStandardAttributes.h>
 #include <OpenEXR/ImfTiledOutputFile.h>
 
 #include <algorithm>
@@ -111,6 +112,12 @@ Imf::Header header_of(const Image& image, const ExrSpec& spec) {
     header.dataWindow().max.x += spec.left;
     header.dataWindow().min.y += spec.top;
     header.dataWindow().max.y += spec.top;
+    header.displayWindow() = header.dataWindow();
+    if (spec.display) {
+        const auto& [left, top, right, bottom] = *spec.display;
+        header.displayWindow() = Imath::Box2i({left, top}, {right, bottom});
+    }
+    if (spec.envmap) Imf::addEnvmap(header, *spec.envmap);
     for (const std::string& channel : spec.channels) header.channels().insert(channel, Imf::Channel(spec.type));
     return header;
 }

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <OpenEXR/ImfCompression.h>
+#include <OpenEXR/ImfEnvmap.h>
 #include <OpenEXR/ImfPixelType.h>
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -45,6 +47,9 @@ struct ExrSpec {
     std::vector<std::string> channels{"R", "G", "B"};
     /// The data window's upper left corner.
     int left = 0, top = 0;
+    /// Left, top, right and bottom (included) of the display window; else it is the data window.
+    std::optional<std::array<int, 4>> display = std::nullopt;
+    std::optional<Imf::Envmap> envmap = std::nullopt;
 };
 [[nodiscard]] std::string make_exr(const Image& image, const ExrSpec& spec = {});
 /// Luminance with chroma at half rate.

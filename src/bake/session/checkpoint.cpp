@@ -5,10 +5,9 @@
 #include <zlib.h>
 
 #include <bit>
-#include <cerrno>
 #include <cstring>
-#include <fstream>
 
+#include "io/read_file.h"
 #include "io/write_file.h"
 
 namespace lobelia {
@@ -56,31 +55,29 @@ Status RegionStates::write(const std::filesystem::path& path) {
 
 Result<RegionStates> RegionStates::read(const std::filesystem::path& path) {
     const auto bad = [&](std::string_view what) { return Error{fmt::format("{}: {}", path.string(), what)}; };
-    std::ifstream file(path, std::ios::binary);
-    if (!file) return bad(fmt::format("cannot be opened: {}", std::generic_category().message(errno)));
+    const auto file = InputFile::open(path);
+    if (!file) return file.error();
 
     // Read the header first: allocate nothing for a file that is not a checkpoint.
     FileHeader start;
-    std::array<char, k_header_floats * sizeof(float)> begin{};
-    if (!file.read(begin.data(), begin.size())) return bad("this checkpoint is truncated");
+    std::array<std::byte, k_header_floats * sizeof(float)> begin{};
+    if (file->size() < begin.size()) return bad("this checkpoint is truncated");
+    if (const Status status = file->read(0, begin); !status) return status.error();
     std::memcpy(&start, begin.data(), sizeof start);
     if (start.magic != k_magic) return bad("this is not a checkpoint of Lobelia");
     if (start.version != k_version)
         return bad(
             fmt::format("this checkpoint has version {}; this program reads version {}", start.version, k_version));
-    std::error_code code;
-    const std::uintmax_t size = std::filesystem::file_size(path, code);
     constexpr std::uint64_t most_floats = std::uint64_t{1} << 40;
     const RegionHeader& region = start.region;
     if (region.floats == 0 || region.sites > most_floats / region.floats ||
-        size != sizeof(float) * (k_header_floats + region.sites * region.floats))
+        file->size() != sizeof(float) * (k_header_floats + region.sites * region.floats))
         return bad("this checkpoint is truncated or damaged: its size does not match its header");
 
     RegionStates result(region.sites, region.floats);
     result.header = region;
     const auto states = result.states();
-    if (!file.read(reinterpret_cast<char*>(states.data()), static_cast<std::streamsize>(states.size_bytes())))
-        return bad("this checkpoint is truncated");
+    if (const Status status = file->read(begin.size(), std::as_writable_bytes(states)); !status) return status.error();
     if (checksum(region, states) != start.checksum) return bad("this checkpoint is damaged: its checksum is wrong");
     return result;
 }

@@ -1,7 +1,9 @@
-// An inspection of OpenEXR headers before OpenEXR itself parses them, after "The OpenEXR File Layout" (openexr.com).
-#include "io/exr_headers.h"
+// Checks of OpenEXR files before OpenEXR sees them, after "The OpenEXR File Layout" (openexr.com).
+#include "io/exr_checks.h"
 
-#include <fmt/format.h>
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfPartType.h>
+#include <OpenEXR/ImfTileDescription.h>
 
 #include <algorithm>
 #include <array>
@@ -10,6 +12,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "io/exr_windows.h"
 #include "io/image_checks.h"
 
 namespace lobelia::io {
@@ -19,8 +22,8 @@ namespace {
 constexpr std::size_t k_most_parts = 256, k_most_name = 255;
 constexpr std::uint32_t k_tiled = 0x200, k_multi_part = 0x1000;
 
-// Attribute types of one size. OpenEXR reads these without looking at the size that the file states, so a wrong one
-// would let it see other attributes than this inspection does.
+// Attribute types of fixed size. OpenEXR reads these without checking the size that the file states, so a wrong size
+// would make it parse other attributes than this inspection does.
 constexpr std::array<std::pair<std::string_view, std::uint32_t>, 24> k_fixed_sizes{{
     {"box2i", 16},
     {"box2f", 16},
@@ -48,7 +51,7 @@ constexpr std::array<std::pair<std::string_view, std::uint32_t>, 24> k_fixed_siz
     {"v3i", 12},
 }};
 
-/// A fault of the file; caught where the inspection began.
+/// A fault of the file; caught in check_exr_headers.
 struct Refusal : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
@@ -59,7 +62,7 @@ class Walker {
         : in_(in), name_(name), options_(options), most_channels_(most_channels) {}
 
     void file() {
-        if (u32() != 20000630) refuse("no OpenEXR file");
+        if (u32() != 20000630) refuse("not an OpenEXR file");
         const std::uint32_t version = u32();
         if ((version & 0xff) != 2) refuse(fmt::format("OpenEXR file version {}, not 2", version & 0xff));
         tiled_ = (version & k_tiled) != 0;
@@ -99,7 +102,7 @@ class Walker {
     std::string text() {
         std::string result;
         for (char c = bytes<1>()[0]; c != 0; c = bytes<1>()[0]) {
-            if (result.size() == k_most_name) refuse("a name without an end");
+            if (result.size() == k_most_name) refuse("a name longer than 255 characters");
             result.push_back(c);
         }
         return result;
@@ -132,31 +135,33 @@ class Walker {
     void check(const Attribute& attribute, std::uint64_t end) {
         for (const auto& [type, size] : k_fixed_sizes)
             if (attribute.type == type && attribute.size != size)
-                refuse("an attribute whose size is not that of its type");
-        if (attribute.name == "dataWindow") window(attribute);
+                refuse(fmt::format("attribute of type {}: {} bytes instead of {}", type, attribute.size, size));
+        if (attribute.name == "dataWindow" || attribute.name == "displayWindow") window(attribute);
         if (attribute.name == "tiles") tiles(attribute);
-        if (attribute.name == "channels" && attribute.type != "chlist") refuse("channels that are no channel list");
+        if (attribute.name == "channels" && attribute.type != "chlist")
+            refuse("the attribute channels is not a channel list");
         if (attribute.type == "chlist") channels(end);
         if (attribute.type == "preview") preview(attribute);
         if (attribute.type == "stringvector") strings(end);
-        if (attribute.type == "floatvector" && attribute.size % 4 != 0) refuse("a vector of a broken number of floats");
-        if (attribute.type == "idmanifest" && attribute.size < 8) refuse("an ID manifest too short to be one");
+        if (attribute.type == "floatvector" && attribute.size % 4 != 0)
+            refuse("float vector: attribute size is not a multiple of 4");
+        if (attribute.type == "idmanifest" && attribute.size < 8) refuse("ID manifest: shorter than 8 bytes");
     }
 
     void window(const Attribute& attribute) {
-        if (attribute.type != "box2i") refuse("a dataWindow that is no box");
+        if (attribute.type != "box2i") refuse(fmt::format("{} is not of type box2i", attribute.name));
         std::array<std::int64_t, 4> box{};
         for (std::int64_t& side : box) side = i32();
         // OpenEXR multiplies coordinates by bytes per pixel in 32 bits in places; far-off windows are of no use here.
         constexpr std::int64_t k_farthest = 1 << 24;
         if (std::any_of(box.begin(), box.end(), [](std::int64_t c) { return c < -k_farthest || c > k_farthest; }))
-            refuse("a data window with coordinates beyond 2^24");
+            refuse(fmt::format("{} has coordinates beyond 2^24", attribute.name));
         const Status status = check_size(name_, box[2] - box[0] + 1, box[3] - box[1] + 1, options_);
         if (!status) throw std::length_error(status.error().message);
     }
 
     void tiles(const Attribute& attribute) {
-        if (attribute.type != "tiledesc") refuse("tiles without tile description");
+        if (attribute.type != "tiledesc") refuse("the attribute tiles is not a tile description");
         const Status status = check_size(name_, u32(), u32(), options_);
         if (!status) refuse("a tile size that is 0 or larger than the largest image");
     }
@@ -168,13 +173,13 @@ class Walker {
             bytes<8>();  // pixel type, linearity, padding
             if (i32() < 1 || i32() < 1) refuse("a channel with a sampling rate below 1");
         }
-        if (in_.tellg() != end) refuse("a channel list whose size is not its own");
+        if (in_.tellg() != end) refuse("channel list: attribute size does not match its contents");
     }
 
     void preview(const Attribute& attribute) {
         const std::uint64_t width = u32(), height = u32();
         if (width > 65536 || height > 65536 || 8 + 4 * width * height != attribute.size)
-            refuse("a preview image whose size is not its own");
+            refuse("preview image: attribute size does not match its contents");
     }
 
     void strings(std::uint64_t end) {
@@ -183,7 +188,7 @@ class Walker {
             if (in_.tellg() > end || length > end - in_.tellg()) refuse("a string larger than its list");
             in_.seekg(in_.tellg() + length);
         }
-        if (in_.tellg() != end) refuse("a list of strings whose size is not its own");
+        if (in_.tellg() != end) refuse("list of strings: attribute size does not match its contents");
     }
 
     ExrInput& in_;
@@ -193,6 +198,33 @@ class Walker {
     bool tiled_ = false;
     std::uint64_t place_ = 0;
 };
+
+std::int64_t lines_per_chunk(Imf::Compression compression) {
+    switch (compression) {
+        case Imf::NO_COMPRESSION:
+        case Imf::RLE_COMPRESSION:
+        case Imf::ZIPS_COMPRESSION:
+            return 1;
+        case Imf::ZIP_COMPRESSION:
+        case Imf::PXR24_COMPRESSION:
+            return 16;
+        case Imf::DWAB_COMPRESSION:
+            return 256;
+        default:
+            return 32;
+    }
+}
+
+/// Number of samples that OpenEXR buffers at once for a part.
+std::int64_t buffered_samples(const Imf::Header& header) {
+    std::int64_t channels = 0;
+    for (auto c = header.channels().begin(); c != header.channels().end(); ++c) ++channels;
+    const std::int64_t width = data_window(header).width();
+    if (!header.hasTileDescription()) return width * lines_per_chunk(header.compression()) * channels;
+    // Tiles are buffered by rows, whole at the right edge.
+    const Imf::TileDescription& tile = header.tileDescription();
+    return (width + tile.xSize) * tile.ySize * channels;
+}
 
 }  // namespace
 
@@ -204,10 +236,47 @@ Status check_exr_headers(ExrInput& in, std::string_view name, const ReadOptions&
     } catch (const std::length_error& error) {
         return Error{error.what()};
     } catch (const Refusal& refusal) {
-        return Error{fmt::format("{}: a damaged OpenEXR header: {}", name, refusal.what())};
+        return Error{fmt::format("{}: damaged OpenEXR header: {}", name, refusal.what())};
     } catch (const std::exception& error) {
         return Error{fmt::format("{}: {}, at byte {} of its OpenEXR header", name, error.what(), in.tellg())};
     }
+}
+
+bool is_deep(const Imf::Header& header) {
+    return header.hasType() && (header.type() == Imf::DEEPSCANLINE || header.type() == Imf::DEEPTILE);
+}
+
+Status check_part(const Imf::Header& header, std::string_view name, std::uint64_t file_bytes, std::uint64_t channels,
+                  const ReadOptions& options) {
+    // Check both windows against the limits.
+    const ExrWindow data = data_window(header), display = display_window(header);
+    for (const ExrWindow& window : {data, display})
+        if (const Status status = check_size(name, window.width(), window.height(), options); !status) return status;
+    const ExrWindow common = common_window(data, display);
+    if (common.width() <= 0 || common.height() <= 0)
+        return Error{fmt::format("{}: the data window lies outside the display window: no pixel can be seen", name)};
+
+    // Bound what OpenEXR buffers for one chunk.
+    constexpr std::size_t k_most_buffered = std::size_t{1} << 28, k_always = std::size_t{1} << 20;
+    const auto most_buffered = static_cast<std::int64_t>(
+        std::min(k_most_buffered, k_always + 4 * std::min(options.most_pixels, k_most_buffered)));
+    if (buffered_samples(header) > most_buffered)
+        return Error{fmt::format("{}: one chunk of the image would take more than {} samples", name, most_buffered)};
+
+    // DWA compresses best: 64 equal samples are two symbols of 16 bits, deflated at most 1032 : 1.
+    constexpr std::uint64_t k_most_samples_per_byte = 64 * 1032 / 4;
+    if (data.pixels() * channels / k_most_samples_per_byte > file_bytes)
+        return Error{
+            fmt::format("{}: {} bytes cannot hold {} x {} pixels", name, file_bytes, data.width(), data.height())};
+    return Done{};
+}
+
+Status check_sampling(const Imf::Header& header, const std::string& channel, std::string_view name, int rate) {
+    const Imf::Channel* found = header.channels().findChannel(channel);
+    if (found && (found->xSampling != rate || found->ySampling != rate))
+        return Error{fmt::format("{}: channel {} is sampled at 1/{} x 1/{}; 1/{} was expected", name, channel,
+                                 found->xSampling, found->ySampling, rate)};
+    return Done{};
 }
 
 }  // namespace lobelia::io

@@ -1,0 +1,15 @@
+# Finds Highway and defines hwy::hwy: by its own CMake package, or by pkg-config where that is missing (Ubuntu 22.04).
+# The build and the installed package both include this file.
+if(NOT TARGET hwy::hwy)
+  find_package(hwy CONFIG QUIET)
+endif()
+if(NOT TARGET hwy::hwy)
+  find_package(PkgConfig QUIET)
+  if(PkgConfig_FOUND)
+    pkg_check_modules(HWY QUIET IMPORTED_TARGET GLOBAL libhwy)
+  endif()
+  if(TARGET PkgConfig::HWY)
+    add_library(hwy::hwy INTERFACE IMPORTED)
+    target_link_libraries(hwy::hwy INTERFACE PkgConfig::HWY)
+  endif()
+endif()
