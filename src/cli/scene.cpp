@@ -6,7 +6,7 @@
 #include "cli/verbs.h"
 #include "io/write_image.h"
 #include "scene/embedded.h"
-#include "scene/gltf_write.h"
+#include "lobelia/gltf.h"
 
 namespace lobelia::cli {
 namespace {
@@ -22,9 +22,9 @@ Status scene_verb(const SceneArguments& options) {
     // Make everything before the first file is written.
     const auto scene = embedded_scene(options.name);
     if (!scene) return scene.error();
+    if (options.environment.empty()) return write_gltf(options.out, *scene);
     const auto glb = encode_glb(*scene);
     if (!glb) return glb.error();
-    if (options.environment.empty()) return write_file_atomically(options.out, *glb);
     if (!scene->environment)
         return Error{fmt::format("--environment: the scene {} has none: it is lit by its lamp alone", options.name)};
     const auto exr = encode_exr(*scene->environment);

@@ -1,4 +1,4 @@
-// What a bake leaves behind reads back as it was, and nothing else is taken for it.
+// Tests that a written bake reads back equal, and that damaged or foreign files are refused.
 #include <gtest/gtest.h>
 
 #include "bake/write/manifest.h"
@@ -53,7 +53,7 @@ TEST_F(BakeOutput, RoundTripOfManifest) {
         EXPECT_EQ(a.objects[i].name, b.objects[i].name);
         expect_equal(a.objects[i].placement, b.objects[i].placement);
     }
-    // All of the rest is in the text, which is written the same again.
+    // The text holds everything else, and writing it again gives the same text.
     EXPECT_EQ(to_json_text(b), test::contents(path() / "bake.json"));
     EXPECT_EQ(b.options.paths.seed, 0xfffffffeu);
     EXPECT_EQ(b.options.target_error, 0.125);

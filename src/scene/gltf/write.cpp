@@ -1,16 +1,17 @@
 // Scenes into binary glTF 2.0 files (Khronos 2021).
-#include "scene/gltf_write.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cassert>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <optional>
 
+#include "io/json.h"
 #include "io/write_file.h"
-#include "scene/gltf_json.h"
-#include "scene/gltf_write_parts.h"
+#include "lobelia/gltf.h"
+#include "scene/gltf/document.h"
+#include "scene/gltf/write_materials.h"
 
 namespace lobelia {
 namespace gltf {
@@ -55,6 +56,7 @@ class Writer {
             if (const Status s = write_object(i); !s) return s.error();
         write_lights();
         write_cameras();
+        move_to_origin();
         json scene = {{"nodes", nodes_}};
         if (nodes_.empty()) scene.erase("nodes");
         if (!scene_.name.empty()) scene["name"] = scene_.name;
@@ -72,9 +74,10 @@ class Writer {
 
     static Status add_extras(json& target, const std::string& text, std::string_view whose) {
         if (text.empty()) return Done{};
-        json extras = json::parse(text, nullptr, false);
-        if (!extras.is_object()) return Error{fmt::format("the extras of {} are no JSON object", whose)};
-        target["extras"] = std::move(extras);
+        auto extras = parse_json(text, fmt::format("the extras of {}", whose));
+        if (!extras) return extras.error();
+        if (!extras->is_object()) return Error{fmt::format("the extras of {} are not a JSON object", whose)};
+        target["extras"] = *std::move(extras);
         return Done{};
     }
 
@@ -88,7 +91,7 @@ class Writer {
         return Done{};
     }
 
-    /// The file's mesh for an object: that of its own mesh, or one that differs in the lightmap UVs alone.
+    /// The index of the file's mesh for an object: that of its own mesh, or one that differs only in the lightmap UVs.
     std::size_t mesh_of(std::size_t i) {
         const std::size_t m = scene_.objects[i].mesh;
         const bool own_uv = !options_.lightmap_uv.empty() && !options_.lightmap_uv[i].empty();
@@ -115,8 +118,8 @@ class Writer {
         return index;
     }
 
-    /// glTF numbers sets of texture coordinates without gaps: sets below others that nobody reads become copies of
-    /// those. Whether the lightmap's is one of them.
+    /// glTF numbers sets of texture coordinates without gaps: missing sets below others become copies of those. Returns
+    /// whether the lightmap's is one of them.
     static bool fill_gaps(json& attributes) {
         bool fills_lightmap = false;
         const std::array<std::string, 3> names{"TEXCOORD_2", "TEXCOORD_1", "TEXCOORD_0"};
@@ -128,7 +131,7 @@ class Writer {
         return fills_lightmap;
     }
 
-    /// What all objects of a mesh share; written once.
+    /// The accessors that all objects of a mesh share; written once.
     const MeshAccessors& accessors_of(std::size_t m) {
         if (const auto found = accessors_.find(m); found != accessors_.end()) return found->second;
         const Mesh& mesh = scene_.meshes[m];
@@ -189,6 +192,14 @@ class Writer {
         }
     }
 
+    /// Puts all nodes below one that moves the scene back to its place in the world.
+    void move_to_origin() {
+        const auto& [x, y, z] = scene_.origin;
+        if ((x == 0 && y == 0 && z == 0) || nodes_.empty()) return;
+        json root = {{"translation", {x, y, z}}, {"children", std::move(nodes_)}};
+        nodes_ = json::array({builder_.add("nodes", std::move(root))});
+    }
+
     const Scene& scene_;
     const GltfWriteOptions& options_;
     WriteSets sets_;
@@ -207,7 +218,7 @@ Result<std::string> encode_glb(const Scene& scene, const GltfWriteOptions& optio
     return gltf::Writer(scene, options).write();
 }
 
-Status write_glb(const std::filesystem::path& path, const Scene& scene, const GltfWriteOptions& options) {
+Status write_gltf(const std::filesystem::path& path, const Scene& scene, const GltfWriteOptions& options) {
     const Result<std::string> bytes = encode_glb(scene, options);
     if (!bytes) return Error{fmt::format("{}: {}", path.string(), bytes.error().message)};
     return write_file_atomically(path, *bytes);

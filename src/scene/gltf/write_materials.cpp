@@ -1,12 +1,14 @@
-// Materials and textures into a glTF file.
+// Writes materials and textures into a glTF file.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <nlohmann/json.hpp>
+#include <tuple>
 
 #include "io/write_image.h"
-#include "scene/gltf_write_parts.h"
+#include "scene/gltf/write_materials.h"
 
 namespace lobelia::gltf {
 namespace {
@@ -24,6 +26,8 @@ int wrap_mode(Texture::Wrap wrap) {
     }
     return 10497;
 }
+
+int filter_mode(Texture::Filter filter) { return filter == Texture::Filter::nearest ? 9728 : 9729; }
 
 /// A texture's use as textureInfo; the error of a transform that KHR_texture_transform cannot express.
 Result<json> texture_info(GlbBuilder& builder, const TextureUse& use, const WriteSets& sets) {
@@ -112,17 +116,19 @@ Status write_materials(GlbBuilder& builder, const Scene& scene, const WriteSets&
 }
 
 Status write_textures(GlbBuilder& builder, const Scene& scene) {
-    std::map<std::pair<int, int>, std::size_t> samplers;
+    std::map<std::tuple<int, int, int>, std::size_t> samplers;
     for (const Texture& texture : scene.textures) {
         const auto png = encode_png(texture.width, texture.height, texture.texels);
         if (!png) return Error{fmt::format("texture \"{}\": {}", texture.name, png.error().message)};
         json image = {{"bufferView", builder.add_view(*png, 0)}, {"mimeType", "image/png"}};
         if (!texture.name.empty()) image["name"] = texture.name;
-        const std::pair wrap{wrap_mode(texture.wrap_u), wrap_mode(texture.wrap_v)};
-        auto sampler = samplers.find(wrap);
-        if (sampler == samplers.end())
-            sampler =
-                samplers.emplace(wrap, builder.add("samplers", {{"wrapS", wrap.first}, {"wrapT", wrap.second}})).first;
+        const int u = wrap_mode(texture.wrap_u), v = wrap_mode(texture.wrap_v), filter = filter_mode(texture.filter);
+        auto sampler = samplers.find({u, v, filter});
+        if (sampler == samplers.end()) {
+            const std::size_t index =
+                builder.add("samplers", {{"wrapS", u}, {"wrapT", v}, {"magFilter", filter}, {"minFilter", filter}});
+            sampler = samplers.emplace(std::tuple{u, v, filter}, index).first;
+        }
         builder.add("textures", {{"source", builder.add("images", std::move(image))}, {"sampler", sampler->second}});
     }
     return Done{};

@@ -1,8 +1,8 @@
-// The parts of writing a glTF file.
+// Writes materials and textures into a glTF file.
 #pragma once
 
 #include "lobelia/scene.h"
-#include "scene/glb_builder.h"
+#include "scene/gltf/glb_builder.h"
 
 namespace lobelia::gltf {
 

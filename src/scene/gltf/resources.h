@@ -1,9 +1,9 @@
-// What a glTF file refers to by URI: data URIs, and files in its own folder.
+// Resources of a glTF file by URI: data URIs, and files in its own folder.
 #pragma once
 
 #include <map>
 
-#include "scene/gltf_read.h"
+#include "lobelia/gltf.h"
 
 namespace lobelia::gltf {
 
@@ -26,8 +26,8 @@ class Resources {
     std::vector<std::vector<std::byte>> data_;
 };
 
-/// A relative URI as a path that cannot leave the folder: percent signs decoded; an error where it is absolute, has a
-/// scheme, climbs by "..", or holds characters that no portable file name has.
+/// A relative URI as a path below the folder: percent signs decoded, "." and ".." resolved; an error where it is
+/// absolute, has a scheme, leads out of the folder, or holds characters that no portable file name has.
 [[nodiscard]] Result<std::string> relative_path(std::string_view uri);
 
 /// The bytes of a URI "data:...;base64,...".

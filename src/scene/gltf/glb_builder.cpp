@@ -1,5 +1,5 @@
 // A binary glTF file as it grows.
-#include "scene/glb_builder.h"
+#include "scene/gltf/glb_builder.h"
 
 #include <algorithm>
 #include <cstring>

@@ -1,5 +1,5 @@
-// What a glTF file refers to by URI: data URIs (RFC 2397), and files in its own folder.
-#include "scene/gltf_resources.h"
+// Resources of a glTF file by URI: data URIs (RFC 2397), and files in its own folder.
+#include "scene/gltf/resources.h"
 
 #include <fmt/format.h>
 
@@ -84,9 +84,9 @@ Result<std::string> relative_path(std::string_view uri) {
         if (static_cast<unsigned char>(c) < 0x20 || c == '\\' || c == ':' || c == 0x7f)
             return refused("it holds a colon, a backslash or a control character; only plain relative paths are read");
     if (path->front() == '/') return refused("an absolute path; only files in the scene's folder are read");
-    for (const auto& part : std::filesystem::path(*path))
-        if (part == "..") return refused("it leads out of the scene's folder");
-    return *path;
+    const std::filesystem::path normal = std::filesystem::path(*path).lexically_normal();
+    if (*normal.begin() == "..") return refused("it leads out of the scene's folder");
+    return normal.generic_string();
 }
 
 Result<std::vector<std::byte>> decode_data_uri(std::string_view uri) {
