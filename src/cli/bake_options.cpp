@@ -3,6 +3,7 @@
 
 #include "cli/common.h"
 #include "cli/lobe_files.h"
+#include "cli/options.h"
 #include "cli/scene_input.h"
 
 namespace lobelia::cli {
