@@ -3,10 +3,11 @@
 #include <fmt/ranges.h>
 
 #include "cli/common.h"
+#include "cli/options.h"
 #include "cli/verbs.h"
 #include "io/write_image.h"
-#include "scene/embedded.h"
 #include "lobelia/gltf.h"
+#include "scene/embedded.h"
 
 namespace lobelia::cli {
 namespace {
@@ -40,7 +41,7 @@ Verb add_scene(CLI::App& app) {
     CLI::App* command = app.add_subcommand("scene", "Write a scene that the program carries as a glTF file");
     command->add_option("NAME", options->name, fmt::format("Which one: {}", fmt::join(embedded_scene_names(), ", ")))
         ->required();
-    command->add_option("-o,--output", options->out, "The file to write, .glb")->required();
+    command->add_option("-o,--out", options->out, "The file to write, .glb")->required();
     command->add_option("--environment", options->environment,
                         "Its environment, which glTF cannot hold, as another file (.exr)");
     return {command, [options] { return scene_verb(*options); }};

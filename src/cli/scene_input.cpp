@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "cli/common.h"
+#include "cli/options.h"
 #include "scene/embedded.h"
 
 namespace lobelia::cli {

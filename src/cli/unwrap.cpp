@@ -5,6 +5,7 @@
 
 #include "cli/common.h"
 #include "cli/interrupt.h"
+#include "cli/options.h"
 #include "cli/process.h"
 #include "cli/verbs.h"
 #include "io/counted.h"
@@ -163,7 +164,7 @@ Verb add_unwrap(CLI::App& app) {
     auto options = std::make_shared<UnwrapArguments>();
     CLI::App* command = app.add_subcommand("unwrap", "Give a glTF scene lightmap UVs (needs Node.js)");
     command->add_option("SCENE", options->in, "A .glb or .gltf file")->required();
-    command->add_option("-o,--output", options->out, "The file to write, .glb")->required();
+    command->add_option("-o,--out", options->out, "The file to write, .glb")->required();
     command
         ->add_option("--layout", options->layout,
                      "shared: all objects in one square; object: each has its own, for bakes on several pages")

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <functional>
 
+#include "data.h"
 #include "io/read_image.h"
 #include "io/write_file.h"
 #include "io_files.h"
@@ -201,10 +202,10 @@ TEST(ReadEnvironment, ContentDecidesTheFormat) {
     EXPECT_TRUE(holds(loaded->image, picture));
 }
 
-#ifdef LOBELIA_SHARED_DIR
 TEST(ReadEnvironment, RealEnvironments) {
-    const std::filesystem::path folder = std::filesystem::path(LOBELIA_SHARED_DIR) / "data";
-    if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no environments at " << folder;
+    const std::filesystem::path folder = test::data_folder();
+    if (!std::filesystem::exists(folder))
+        GTEST_SKIP() << "no " << folder << ": set LOBELIA_DATA to a folder with latitude-longitude .hdr files";
     std::size_t read = 0;
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {
         if (entry.path().extension() != ".hdr") continue;
@@ -216,7 +217,6 @@ TEST(ReadEnvironment, RealEnvironments) {
     }
     EXPECT_GT(read, 0u);
 }
-#endif
 
 }  // namespace
 }  // namespace lobelia

@@ -4,9 +4,9 @@
 #include <gtest/gtest.h>
 
 #include "core/math/colour.h"
+#include "core/sample/directions.h"
 #include "small_scenes.h"
 #include "support.h"
-#include "trace/directions.h"
 #include "trace/texture.h"
 
 namespace lobelia {

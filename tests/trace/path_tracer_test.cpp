@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include "core/sample/sequence.h"
 #include "measure.h"
 #include "support.h"
-#include "trace/sequence.h"
 
 namespace lobelia {
 namespace {

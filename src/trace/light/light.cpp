@@ -4,7 +4,7 @@
 #include <cassert>
 #include <limits>
 
-#include "trace/directions.h"
+#include "core/sample/directions.h"
 
 namespace lobelia {
 namespace {

@@ -1,0 +1,12 @@
+#include "data.h"
+
+#include <cstdlib>
+
+namespace lobelia::test {
+
+std::filesystem::path data_folder() {
+    const char* const folder = std::getenv("LOBELIA_DATA");
+    return folder && *folder ? folder : LOBELIA_DEFAULT_DATA;
+}
+
+}  // namespace lobelia::test
