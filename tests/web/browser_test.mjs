@@ -36,7 +36,7 @@ function make_reports() {
     run("compare", "sky", ...some, "-o", "compare");
     run("study", "irradiance", "-o", "study");
     const quick = ["--size", "128x128", "--samples", "64", "--picture-size", "96x72", "--picture-samples", "4"];
-    run("bake", screenshots ? "colonnade" : "cornell", ...(screenshots ? [] : quick), "--probe-spacing", screenshots ? "2" : "1", "-o", "bake");
+    run("bake", screenshots ? "colonnade" : "cornell", ...(screenshots ? [] : quick), "--probes", "scene", "--probe-spacing", screenshots ? "2" : "1", "-o", "bake");
 }
 
 const reports = { compare: "compare/report.html", study: "study/irradiance.html", bake: "bake/bake.html" };
