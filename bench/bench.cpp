@@ -4,6 +4,7 @@
 
 #include "bench/machine.h"
 #include "bench/trace.h"
+#include "lobelia/evaluate.h"
 #include "lobelia/sky.h"
 #include "lobelia/specular.h"
 #include "lobelia/storage.h"
@@ -80,6 +81,41 @@ void evaluate_irradiance(benchmark::State& state, const std::shared_ptr<const Ba
     Colours out(k_normals);
     for (auto _ : state) {
         irradiance(evaluator, c, normals, out);
+        benchmark::DoNotOptimize(out.channel(0));
+    }
+    count_items(state, k_normals);
+}
+
+/// An item is one normal, evaluated by a call of its own.
+void evaluate_one_normal(benchmark::State& state, const Codec& codec) {
+    const std::vector<Rgb> c = codec.encode(samples_for(codec.basis().domain(), 1024));
+    const Directions normals = uniform_directions(codec.basis().domain(), Sequence::sobol, k_normals, 1);
+    for (auto _ : state)
+        for (std::size_t i = 0; i < k_normals; ++i)
+            benchmark::DoNotOptimize(codec.irradiance(c, direction_at(normals, i)));
+    count_items(state, k_normals);
+}
+
+/// An item is one sample, added to a state by a call of its own.
+void add_one_sample(benchmark::State& state, const Encoder& encoder) {
+    const Samples samples = samples_for(encoder.basis().domain(), k_normals);
+    std::vector<float> encoded(encoder.state_size());
+    for (auto _ : state)
+        for (std::size_t i = 0; i < k_normals; ++i) encoder.add(encoded, samples.view().part(i, 1));
+    benchmark::DoNotOptimize(encoded.data());
+    count_items(state, k_normals);
+}
+
+/// An item is one texel: its own coefficients and its own normal.
+void evaluate_texels(benchmark::State& state, const Codec& codec) {
+    const std::size_t planes = 3 * codec.basis().size();
+    const std::vector<float> values(planes * k_normals, 0.5f);
+    std::vector<const float*> c(planes);
+    for (std::size_t p = 0; p < planes; ++p) c[p] = values.data() + p * k_normals;
+    const Directions normals = uniform_directions(codec.basis().domain(), Sequence::sobol, k_normals, 1);
+    Colours out(k_normals);
+    for (auto _ : state) {
+        irradiance(codec.evaluator(), c, normals, out);
         benchmark::DoNotOptimize(out.channel(0));
     }
     count_items(state, k_normals);
@@ -188,6 +224,18 @@ void register_basis(const std::shared_ptr<const Basis>& basis) {
                                      [encoder = make_encoder(encoder_name, basis).value()](benchmark::State& s) {
                                          encode(s, encoder, k_samples);
                                      });
+    for (const auto& encoder_name : encoder_names(*basis))
+        benchmark::RegisterBenchmark(named("sample", name + "/" + encoder_name, 1).c_str(),
+                                     [encoder = make_encoder(encoder_name, basis).value()](benchmark::State& s) {
+                                         add_one_sample(s, *encoder);
+                                     });
+    for (const auto& evaluator_name : basis->evaluator_names()) {
+        const Codec codec = make_codec(basis, encoder_names(*basis).back(), evaluator_name).value();
+        benchmark::RegisterBenchmark(named("normal", name + "/" + evaluator_name, 1).c_str(),
+                                     [codec](benchmark::State& s) { evaluate_one_normal(s, codec); });
+        benchmark::RegisterBenchmark(named("texels", name + "/" + evaluator_name, k_normals).c_str(),
+                                     [codec](benchmark::State& s) { evaluate_texels(s, codec); });
+    }
     for (const auto& evaluator_name : basis->evaluator_names())
         benchmark::RegisterBenchmark(named("irradiance", name + "/" + evaluator_name, k_normals).c_str(),
                                      [basis, evaluator = basis->evaluator(evaluator_name)](benchmark::State& s) {

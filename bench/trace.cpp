@@ -9,9 +9,9 @@
 #include <memory>
 
 #include "bake/gather/gather.h"
+#include "core/sample/directions.h"
 #include "lobelia/sampling.h"
 #include "scene/embedded.h"
-#include "trace/directions.h"
 #include "trace/rays.h"
 #include "trace/surface.h"
 

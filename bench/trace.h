@@ -3,7 +3,7 @@
 
 namespace lobelia::bench {
 
-/// Adds the rows trace.*.
+/// Registers the benchmarks trace.*.
 void register_trace();
 
 }  // namespace lobelia::bench

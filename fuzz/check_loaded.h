@@ -1,4 +1,4 @@
-// What holds for every image that a reader returns, whatever the bytes were.
+// Checks the contract of every image that a reader returns, for any input bytes.
 #pragma once
 
 #include <cmath>

@@ -6,11 +6,11 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace lobelia;
     const std::string_view text(reinterpret_cast<const char*>(data), size);
-    // A codec's name may be that of a file with lobes, which is not what is looked for here.
+    // A codec's name may name a file of lobes; skip those, because this target tests the JSON readers.
     if (text.find(":/") != std::string_view::npos || text.find("sg:") != std::string_view::npos) return 0;
     const auto manifest = manifest_from_json(text, "fuzz");
     if (manifest) {
-        // What was read is written, and read again as the same.
+        // Check that data read from the input survives writing and reading again.
         const std::string again = to_json_text(*manifest);
         const auto second = manifest_from_json(again, "again");
         require(static_cast<bool>(second) && to_json_text(*second) == again);

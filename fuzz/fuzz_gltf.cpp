@@ -3,8 +3,7 @@
 
 #include "check_loaded.h"
 #include "scene/check_scene.h"
-#include "scene/gltf_read.h"
-#include "scene/gltf_write.h"
+#include "lobelia/gltf.h"
 #include "scene/world.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

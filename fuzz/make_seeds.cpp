@@ -11,7 +11,7 @@
 #include "lobelia/storage.h"
 #include "picture_files.h"
 #include "scene/embedded.h"
-#include "scene/gltf_write.h"
+#include "lobelia/gltf.h"
 
 namespace {
 

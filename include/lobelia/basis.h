@@ -1,5 +1,5 @@
-// What a basis is: the meaning of coefficients. Linear ones are a sum of functions; fitted ones are read otherwise, and
-// are found from a linear one.
+// Bases: the meaning of coefficients. Linear ones are a sum of functions; fitted ones are evaluated otherwise, and are
+// found from a linear one.
 #pragma once
 
 #include <algorithm>
@@ -20,21 +20,12 @@ class SpecularEvaluator;  // lobelia/specular.h
 /// light: a coefficient that grows in proportion to the radiance. shape: a direction, a sharpness, which does not.
 enum class Meaning { light, shape };
 
-/// What a reader should know of a basis, for docs/bases.md.
-struct BasisNotes {
-    std::string family;   ///< bases that differ in a number only share a section of this title
-    std::string formula;  ///< how coefficients are read as radiance
-    std::string good_at;
-    std::string bad_at;
-};
-
 /// What a list of colours means as radiance over the sphere or the hemisphere.
 class Basis {
   public:
     virtual ~Basis() = default;
     [[nodiscard]] virtual std::string name() const = 0;
     [[nodiscard]] virtual std::string description() const = 0;
-    [[nodiscard]] virtual BasisNotes notes() const = 0;
     [[nodiscard]] virtual Domain domain() const = 0;
     /// Number of coefficients, one colour (three floats) each.
     [[nodiscard]] virtual std::size_t size() const = 0;
@@ -42,23 +33,20 @@ class Basis {
     [[nodiscard]] virtual std::vector<Meaning> meanings() const { return std::vector(size(), Meaning::light); }
     /// L(w) at each direction as the coefficients give it; what is below 0 is still there.
     virtual void radiance(std::span<const Rgb> c, DirectionView directions, MutableColourView out) const = 0;
+    /// The same in one direction. This general form takes a block of one; overrides are quicker.
+    [[nodiscard]] virtual Rgb radiance_at(std::span<const Rgb> c, Vec3 direction) const;
     /// This basis as what it is, a sum of functions or fitted from one: one of the two is not null.
     [[nodiscard]] virtual const LinearBasis* linear() const { return nullptr; }
     [[nodiscard]] virtual const FittedBasis* fitted() const { return nullptr; }
 
-    /// Names of the ways to read irradiance from this basis, the most accurate one last, and one of them (null if
+    /// Names of the evaluators of irradiance for this basis, the most accurate one last, and one of them (null if
     /// unknown).
     [[nodiscard]] virtual std::vector<std::string> evaluator_names() const = 0;
     [[nodiscard]] virtual std::shared_ptr<const Evaluator> evaluator(std::string_view name) const = 0;
-    /// Names of the basis's own ways to read glossy reflection, the most accurate one last, and one of them (null if
-    /// unknown). Any basis can be read by sampling besides: make_specular.
+    /// Names of the basis's own specular evaluators, the most accurate one last, and one of them (null if unknown).
+    /// Sampling works for every basis besides: make_specular.
     [[nodiscard]] virtual std::vector<std::string> specular_names() const { return {}; }
     [[nodiscard]] virtual std::shared_ptr<const SpecularEvaluator> specular(std::string_view name) const;
-    /// Names of the encoders with which the basis is listed; none: with all that suit it. Others work, too.
-    [[nodiscard]] virtual std::vector<std::string> listed_encoders() const { return {}; }
-    /// How far E / pi of the best fit to a constant radiance of 1 is from 1 at most, read exactly, at normals that see
-    /// the domain only.
-    [[nodiscard]] virtual double furnace_bias() const { return 0.005; }
 
     /// The same radiance seen in a rotated frame, L'(R w) = L(w): a basis and coefficients that give it exactly.
     struct Rotated {
@@ -72,7 +60,7 @@ class Basis {
     /// all-plus, from degree 0 on.
     [[nodiscard]] virtual std::optional<std::size_t> harmonics_degree() const { return std::nullopt; }
 
-    // What a storage may make use of.
+    // Traits that storages make use of.
     /// Whether each coefficient is a colour, so that its chroma may be kept more coarsely than its luma.
     [[nodiscard]] virtual bool has_colours() const {
         const auto meaning_of = meanings();
@@ -90,6 +78,9 @@ class LinearBasis : public Basis, public FunctionSet {
     void radiance(std::span<const Rgb> c, DirectionView directions, MutableColourView out) const override {
         evaluate(*this, c, directions, out);
     }
+    [[nodiscard]] Rgb radiance_at(std::span<const Rgb> c, Vec3 direction) const override {
+        return evaluate(*this, c, direction);
+    }
     [[nodiscard]] const LinearBasis* linear() const final { return this; }
     /// Whether every B_i >= 0, so that coefficients >= 0 give a radiance >= 0 everywhere.
     [[nodiscard]] virtual bool is_non_negative() const = 0;
@@ -100,7 +91,7 @@ class LinearBasis : public Basis, public FunctionSet {
 };
 
 /// A basis whose numbers are found from the coefficients of a linear one, which is what encoders accumulate: ambient
-/// and highlight, lobes with axes of their own. Reading them need not be linear.
+/// and highlight, lobes with axes of their own. Evaluation need not be linear.
 class FittedBasis : public Basis {
   public:
     [[nodiscard]] const FittedBasis* fitted() const final { return this; }
@@ -110,8 +101,6 @@ class FittedBasis : public Basis {
     virtual void fit(std::span<const Rgb> accumulated, std::span<Rgb> c) const = 0;
     /// Whether nearly the same input gives nearly the same coefficients; a search may end in another minimum.
     [[nodiscard]] virtual bool is_continuous() const { return true; }
-    /// Fits cost time, and encoders differ little after one.
-    [[nodiscard]] std::vector<std::string> listed_encoders() const override { return {"moments", "least-squares"}; }
 };
 
 [[nodiscard]] inline std::shared_ptr<const SpecularEvaluator> Basis::specular(std::string_view) const {

@@ -1,4 +1,4 @@
-// What functions of a direction and evaluators are: how coefficients are read, in blocks of directions.
+// Functions of a direction, and evaluators: how coefficients become irradiance, in blocks of directions or at one.
 #pragma once
 
 #include <memory>
@@ -22,16 +22,21 @@ class FunctionSet {
     /// rows[i * k_block_size + j] = f_i(direction j), for block.size <= k_block_size directions. `rows` has
     /// size() * k_block_size floats; within a row, entries past block.size up to whole lanes may be overwritten.
     virtual void values(DirectionView block, float* rows) const = 0;
+    /// values[i] = f_i(direction). `values` has room for size() floats rounded up to whole lanes (round_up_to_lanes); those
+    /// past size() may be overwritten. This general form takes a block of one; overrides are quicker.
+    virtual void values_at(Vec3 direction, float* values) const;
 };
 
 /// out_j = sum_i c_i f_i(direction j): radiance for a linear basis, irradiance for a linear evaluator.
 void evaluate(const FunctionSet& functions, std::span<const Rgb> c, DirectionView directions, MutableColourView out);
+/// The same at one direction.
+[[nodiscard]] Rgb evaluate(const FunctionSet& functions, std::span<const Rgb> c, Vec3 direction);
 
 /// The same for many coefficient vectors at once; each function is computed only once per direction.
 void evaluate_many(const FunctionSet& functions, std::span<const std::span<const Rgb>> c, DirectionView directions,
                    std::span<const MutableColourView> out);
 
-/// of_radiance: E is the integral of the radiance that the basis reads from the same coefficients, but for a stated
+/// of_radiance: E is the integral of the radiance that the basis gives for the same coefficients, within a stated
 /// error. of_its_own: E is what shaders make of the coefficients, by a model or with a window.
 enum class Reading { of_radiance, of_its_own };
 
@@ -43,10 +48,11 @@ struct Accuracy {
     double furnace = 0;  ///< of_its_own: largest |E / pi - 1| that it adds where a constant radiance of 1 is read
 };
 
-/// What becomes of a radiance or irradiance below 0, which no light has but a fit may: it stays, or is read as 0.
+/// Treatment of radiance or irradiance below 0, which no light has but a fit may have: it stays, or becomes 0.
 enum class Negative { kept, clamped };
 
-/// How coefficients are read as irradiance E(n) [W/m^2] at a unit normal n.
+/// Evaluates coefficients as irradiance E(n) [W/m^2] at unit normals n. Neither form allocates memory, but for working
+/// memory that each thread keeps after its first call.
 class Evaluator {
   public:
     virtual ~Evaluator() = default;
@@ -54,7 +60,9 @@ class Evaluator {
     [[nodiscard]] virtual Accuracy accuracy() const = 0;
     /// E as the coefficients give it; what is below 0 is still there.
     virtual void signed_irradiance(std::span<const Rgb> c, DirectionView normals, MutableColourView out) const = 0;
-    /// What this reading does with negative values of L and E.
+    /// The same at one normal. This general form takes a block of one; overrides are quicker.
+    [[nodiscard]] virtual Rgb signed_irradiance_at(std::span<const Rgb> c, Vec3 normal) const;
+    /// What this evaluator does with negative values of L and E.
     [[nodiscard]] virtual Negative negative() const { return Negative::kept; }
     /// The weights e_i(n) with E = sum c_i e_i where the evaluator is linear in the coefficients; else null.
     [[nodiscard]] virtual const FunctionSet* weights() const { return nullptr; }
@@ -66,11 +74,15 @@ class LinearEvaluator : public Evaluator, public FunctionSet {
     void signed_irradiance(std::span<const Rgb> c, DirectionView normals, MutableColourView out) const override {
         evaluate(*this, c, normals, out);
     }
+    [[nodiscard]] Rgb signed_irradiance_at(std::span<const Rgb> c, Vec3 normal) const override {
+        return evaluate(*this, c, normal);
+    }
     [[nodiscard]] const FunctionSet* weights() const final { return this; }
 };
 
-/// Irradiance as the evaluator means it: signed, then clamped where it clamps.
+/// Irradiance as the evaluator defines it: signed, then clamped where it clamps.
 void irradiance(const Evaluator& evaluator, std::span<const Rgb> c, DirectionView normals, MutableColourView out);
+[[nodiscard]] Rgb irradiance(const Evaluator& evaluator, std::span<const Rgb> c, Vec3 normal);
 
 /// Signed irradiance of many coefficient vectors; a linear evaluator's weights are computed only once per normal.
 void signed_irradiance_many(const Evaluator& evaluator, std::span<const std::span<const Rgb>> c, DirectionView normals,
@@ -78,5 +90,8 @@ void signed_irradiance_many(const Evaluator& evaluator, std::span<const std::spa
 
 /// Every channel below 0 becomes 0.
 void clamp_negative(MutableColourView colours);
+[[nodiscard]] constexpr Rgb clamp_negative(Rgb c) {
+    return {std::max(c.r, 0.0f), std::max(c.g, 0.0f), std::max(c.b, 0.0f)};
+}
 
 }  // namespace lobelia

@@ -1,21 +1,24 @@
 // All of the library, in the order in which light flows through it.
 //
-//   samples -> encoder -> coefficients -> evaluate -> judge
+//   samples -> encoder -> coefficients -> evaluate -> measure
 //
 // Samples are radiances with a direction and a share of the sphere or the hemisphere. An environment image gives one
 // for each of its texels (texel_samples) or at chosen directions (directed_samples); a path tracer makes them as it
 // goes.
 //
-// A basis is a short list of functions of a direction, such as twelve spherical Gaussians ("sg12") or the spherical
-// harmonics up to degree 2 ("sh2"). An encoder takes samples as they arrive (Accumulator: add, merge, solve) and finds
-// the coefficients with which the sum of those functions comes close to the radiance.
+// A basis is a short list of functions of a direction, such as twelve spherical Gaussians (spherical_gaussians(12), or
+// "sg12" by name) or the spherical harmonics up to degree 2 (spherical_harmonics(2), "sh2"). An encoder takes samples
+// as they arrive (Accumulator: add, merge, solve) and finds the coefficients with which the sum of those functions comes
+// close to the radiance.
 //
 // The coefficients, one colour each, are all that has to be stored. From them the basis gives the radiance in a
-// direction, an evaluator the irradiance at a normal, and a specular evaluator (make_specular) what a glossy surface
-// reflects. Basis, encoder and evaluator make a codec: make_codec ("sg12/least-squares/hill") puts one together,
-// all_codecs() lists those that make sense.
+// direction, an evaluator the irradiance at a normal, and a specular evaluator (make_specular) the light that a glossy
+// surface reflects. Basis, encoder and evaluator make a codec: make_codec("sg12/least-squares/hill") puts one together,
+// all_codecs() lists those that make sense. A codec evaluates many directions at once, or one without allocation.
 //
-// How good was it? irradiance_sum is the exact irradiance of an environment, errors() measures against it.
+// Storages keep coefficients in textures of a few bytes (pack); TextureSampler evaluates those as a shader does.
+//
+// To measure the result: irradiance_sum is the exact irradiance of an environment, errors() compares with it.
 //
 // Directions are unit vectors that point away from the surface; radiance is in W/(m^2 sr), irradiance in W/m^2 and
 // never divided by pi: docs/conventions.md.
@@ -24,7 +27,7 @@
 // The order tells the story.
 // clang-format off
 
-// Numbers, and what functions return that may fail.
+// Numbers, and results of functions that may fail.
 #include "lobelia/math.h"
 #include "lobelia/result.h"
 
@@ -39,21 +42,26 @@
 // Bases and their evaluators, and the mathematics under them.
 #include "lobelia/evaluator.h"
 #include "lobelia/basis.h"
+#include "lobelia/bases.h"
 
-// Glossy reflection.
+// Specular reflection.
 #include "lobelia/specular.h"
 
 // Encoders.
 #include "lobelia/encoder.h"
+#include "lobelia/encoders.h"
 
 // Coefficients in fewer bytes.
 #include "lobelia/pixel_format.h"
 #include "lobelia/texture_layout.h"
 #include "lobelia/storage.h"
 
-// Coefficients as others write them.
+// Evaluation where each texel has coefficients of its own, from planes or from packed textures.
+#include "lobelia/evaluate.h"
+
+// Conversion to and from the conventions of other programs.
 #include "lobelia/sh_conventions.h"
 
-// All of these by name, and how good they were.
+// All of these by name, and their errors.
 #include "lobelia/codec.h"
 #include "lobelia/metrics.h"

@@ -29,31 +29,18 @@ enum class PixelFormat : std::uint8_t {
     bc6h_signed,
 };
 
-/// The largest error of storing v: relative m + of_texture t + spread s + absolute.
-struct ErrorBound {
-    /// What `relative` is a share of, m: the stored value alone; the largest magnitude among what is stored with it,
-    /// of a texel or of a coefficient's three channels; or the largest magnitude of the leading coefficient, times
-    /// what that bounds this one by.
-    enum class Of { value, together, lead };
-    double relative = 0;
-    Of of = Of::value;
-    double absolute = 0;     ///< beneath what the format can tell from 0
-    double of_texture = 0;   ///< share of t, the largest magnitude in the texture
-    double spread = 0;       ///< share of s, the largest difference, in any channel, within the texels that share data
-    std::size_t shared = 1;  ///< those are squares of this many texels a side
-};
-
 struct FormatInfo {
     std::string_view name;
     std::size_t channels;     ///< 1 to 4
     std::size_t block;        ///< texels along one side of a block, 1 or 4
     std::size_t block_bytes;  ///< of one block
     std::uint32_t vk_format;  ///< VkFormat, as KTX 2 files name it; what has none of its own is R8G8B8A8_UNORM
-    double lowest, highest;   ///< what it can hold
-    ErrorBound bound;         ///< within these limits
+    double lowest, highest;   ///< the limits of its values
 };
 
 [[nodiscard]] const FormatInfo& info(PixelFormat format);
+/// All formats, in the order of the enumerators.
+[[nodiscard]] std::span<const PixelFormat> pixel_formats();
 
 /// Bytes of a width x height texture; parts of blocks count as whole ones.
 [[nodiscard]] std::size_t byte_size(PixelFormat format, std::size_t width, std::size_t height);

@@ -11,38 +11,43 @@
 
 namespace lobelia {
 
-/// Kernels read whole groups of this many floats, so every channel can be read up to the next multiple of it.
-/// It is the widest vector of any supported machine (512 bits).
+/// Kernels work on groups of at most this many floats: the widest vector of any supported machine (512 bits).
 inline constexpr std::size_t k_lanes = 16;
 
 [[nodiscard]] constexpr std::size_t round_up_to_lanes(std::size_t n) { return (n + k_lanes - 1) / k_lanes * k_lanes; }
 
-/// A view of `size` consecutive entries of N channels, `stride` floats apart. It is made by `Planes`, and so each
-/// channel may be read (not written) up to `round_up_to_lanes(size)`; what lies there beyond `size` is unspecified.
+/// A view of `size` entries of N channels, each an array of floats anywhere in memory: those of `Planes`, or the
+/// caller's own, as `DirectionView{{x, y, z}, count}`. Nothing outside [0, size) is read or written; alignment is free.
 template <std::size_t N, class Float>
 struct PlanesView {
-    Float* data = nullptr;
-    std::size_t stride = 0;
+    std::array<Float*, N> pointers{};
     std::size_t size = 0;
 
-    [[nodiscard]] Float* channel(std::size_t i) const { return data + i * stride; }
-    /// Entries [begin, begin + count); `begin` is a multiple of k_lanes.
+    [[nodiscard]] Float* channel(std::size_t i) const { return pointers[i]; }
+    /// Entries [begin, begin + count).
     [[nodiscard]] PlanesView part(std::size_t begin, std::size_t count) const {
-        assert(begin % k_lanes == 0 && begin + count <= size);
-        return {data + begin, stride, count};
+        assert(begin + count <= size);
+        PlanesView result{pointers, count};
+        for (Float*& pointer : result.pointers) pointer += begin;
+        return result;
     }
     /// The M channels from `first` on.
     template <std::size_t M>
     [[nodiscard]] PlanesView<M, Float> channels(std::size_t first) const {
         static_assert(M <= N);
-        return {data + first * stride, stride, size};
+        assert(first + M <= N);
+        PlanesView<M, Float> result{{}, size};
+        std::copy_n(pointers.begin() + static_cast<std::ptrdiff_t>(first), M, result.pointers.begin());
+        return result;
     }
     operator PlanesView<N, const Float>() const {  // NOLINT(google-explicit-constructor): as T* to const T*
-        return {data, stride, size};
+        PlanesView<N, const Float> result{{}, size};
+        std::copy(pointers.begin(), pointers.end(), result.pointers.begin());
+        return result;
     }
 };
 
-/// N channels of `size` floats each, zero at first. Channels are padded with zeros to a multiple of k_lanes.
+/// N channels of `size` floats each, zero at first; each begins at a multiple of k_lanes floats.
 template <std::size_t N>
 class Planes {
   public:
@@ -55,12 +60,19 @@ class Planes {
     [[nodiscard]] std::size_t size() const { return size_; }
     [[nodiscard]] float* channel(std::size_t i) { return data_.data() + i * stride_; }
     [[nodiscard]] const float* channel(std::size_t i) const { return data_.data() + i * stride_; }
-    [[nodiscard]] View view() const { return {data_.data(), stride_, size_}; }
-    [[nodiscard]] MutableView view() { return {data_.data(), stride_, size_}; }
+    [[nodiscard]] View view() const { return view_of<View>(*this); }
+    [[nodiscard]] MutableView view() { return view_of<MutableView>(*this); }
     operator View() const { return view(); }   // NOLINT(google-explicit-constructor): a container is its whole view
     operator MutableView() { return view(); }  // NOLINT(google-explicit-constructor)
 
   private:
+    template <class AnyView>
+    [[nodiscard]] static AnyView view_of(auto& planes) {
+        AnyView view{{}, planes.size_};
+        for (std::size_t i = 0; i < N; ++i) view.pointers[i] = planes.channel(i);
+        return view;
+    }
+
     std::size_t size_ = 0;
     std::size_t stride_ = 0;
     std::vector<float> data_;

@@ -24,7 +24,7 @@ struct SampleView : PlanesView<7, const float> {
     [[nodiscard]] DirectionView directions() const { return channels<3>(0); }
     [[nodiscard]] ColourView radiance() const { return channels<3>(3); }
     [[nodiscard]] const float* solid_angles() const { return channel(6); }
-    /// Samples [begin, begin + count); `begin` is a multiple of k_lanes.
+    /// Samples [begin, begin + count).
     [[nodiscard]] SampleView part(std::size_t begin, std::size_t count) const {
         return {PlanesView<7, const float>::part(begin, count)};
     }
@@ -53,7 +53,7 @@ class Samples {
     Planes<7> planes_;
 };
 
-/// Calls `visit(part)` for consecutive parts of at most `count` entries (a multiple of k_lanes), in order.
+/// Calls `visit(part)` for consecutive parts of at most `count` entries, in order, with the index of its first.
 template <class View, class Visit>
 void for_each_part(const View& view, std::size_t count, const Visit& visit) {
     for (std::size_t begin = 0; begin < view.size; begin += count)

@@ -23,11 +23,13 @@ struct Transform {
 /// 8-bit RGBA, row by row from the top left (uv (0, 0)); which curve decodes it is its use's to say.
 struct Texture {
     enum class Wrap { repeat, mirror, clamp };
+    enum class Filter { linear, nearest };  ///< between texels: bilinear, or none
     std::string name;
     std::size_t width = 0;
     std::size_t height = 0;
     std::vector<std::array<std::uint8_t, 4>> texels;
     Wrap wrap_u = Wrap::repeat, wrap_v = Wrap::repeat;
+    Filter filter = Filter::linear;
 };
 
 /// A texture as a material reads it: at rows * (u, v, 1) of the mesh's uv set 0 or 1 (KHR_texture_transform).
@@ -85,7 +87,7 @@ struct PunctualLight {
     Rgb intensity;          ///< point, spot: radiant intensity [W/sr]; directional: irradiance across the beam [W/m^2]
     Vec3 position;          ///< point, spot
     Vec3 direction;         ///< spot, directional: unit, the way the light travels
-    float inner_angle = 0;  ///< spot: half angle of the full cone [radians]
+    float inner_angle = 0;  ///< spot: half angle of the full cone [radians]; that of the outer one: a hard edge
     float outer_angle = 0;  ///< spot: half angle beyond which it is dark [radians]
     float angular_radius = 0;  ///< directional: of the disc in the sky [radians], 0 for a parallel beam
     float range = 0;           ///< point, spot: glTF's cut-off distance [m]; 0: none
@@ -109,6 +111,9 @@ struct Scene {
     std::vector<PunctualLight> lights;
     std::vector<Camera> cameras;
     std::optional<Image> environment;  ///< latitude-longitude, y up; none: black
+    /// The position of (0, 0, 0) in the world that the scene comes from [m]: a scene far from the world's origin is
+    /// moved near zero, or its float positions would lie too far apart.
+    std::array<double, 3> origin{};
 };
 
 }  // namespace lobelia

@@ -29,6 +29,8 @@ struct SceneSource {
 struct LoadedScene {
     Scene scene;
     std::vector<std::string> warnings;
+    /// The parts without lightmap UVs of meshes that have them elsewhere, by their places in the file.
+    std::vector<std::string> parts_without_lightmap_uv;
 };
 
 /// Reads or makes the scene and sets its environment. Errors name the file, the place in it and what to do.

@@ -1,6 +1,7 @@
 // The spine of the bake: place, gather, solve, finish, write.
 #include "lobelia/bake.h"
 
+#include <fmt/format.h>
 #include <tbb/task_arena.h>
 
 #include "bake/finish/finish.h"
@@ -20,6 +21,9 @@ namespace lobelia {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// Error of E by the codec over the mean of E that no codec has unless its encoder fails.
+constexpr double k_useless_codec = 2;
 
 /// A bake under way: the scene's layout, and the result as far as it goes.
 struct BakeWork {
@@ -73,6 +77,11 @@ Status gather_and_solve(BakeWork& work, const BakeSession& session, const fs::pa
             std::max(statistics.samples, (header.end_pass - setup.plan.first_pass) * setup.options.samples_per_pass);
     }
     totals.finish(statistics);
+    if (statistics.codec_error > k_useless_codec)
+        warn(work.bake, session,
+             fmt::format("the codec's irradiance is off by {:.0f} % RMS: encoder \"{}\" does not suit this light; use "
+                         "moments or least-squares",
+                         100 * statistics.codec_error, setup.encoding.codec()->name().encoder));
     return Done{};
 }
 
@@ -99,7 +108,8 @@ Status finish(BakeWork& work, const FinishOptions& steps, const BakeSession& ses
     const BakeSetup& setup = *work.setup;
     std::vector<LightmapPage>& pages = work.bake.pages;
     std::vector<std::string>& taken = work.bake.manifest.finish;
-    Guides guides = make_guides(setup.atlas, map_texels(setup.atlas));
+    const TexelMap map = map_texels(setup.atlas);
+    Guides guides = make_guides(setup.atlas, map);
     if (steps.denoise == Switch::on) {
         if (denoise_pages(pages, setup.encoding, guides))
             taken.emplace_back("denoise");
@@ -111,7 +121,9 @@ Status finish(BakeWork& work, const FinishOptions& steps, const BakeSession& ses
     if (auto status = complete(pages); !status) return status;
     const bool fitted = pages.front().planes.size() != setup.encoding.page_channels().count();
     if (steps.seams == Switch::on) {
-        if (!fitted) close_seams(pages, setup.encoding.page_channels(), setup.atlas);
+        SeamSurroundings around{setup.tracer.get(), {}};
+        if (setup.options.push_out == Switch::on) around.displaced = displaced_texels(setup.atlas, map, *setup.tracer);
+        if (!fitted) close_seams(pages, setup.encoding.page_channels(), setup.atlas, {}, around);
         taken.emplace_back("seams");
     }
     if (steps.dilate == Switch::on) {
@@ -135,6 +147,8 @@ Status write(BakeWork& work, const BakeJob& job, const BakeSession& session) {
     if (session.folder.empty()) return Done{};
     auto manifest = write_bake(session.folder, work.bake, {job.storages, work.setup->scene});
     if (!manifest) return manifest.error();
+    for (std::size_t i = work.bake.manifest.warnings.size(); i < manifest->warnings.size() && session.warn; ++i)
+        session.warn(manifest->warnings[i]);
     work.bake.manifest = *std::move(manifest);
     return Done{};
 }

@@ -5,6 +5,7 @@
 #include "cli/bake_options.h"
 #include "cli/bake_session.h"
 #include "cli/common.h"
+#include "cli/options.h"
 #include "cli/scene_input.h"
 #include "cli/verbs.h"
 

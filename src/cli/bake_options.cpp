@@ -2,6 +2,8 @@
 #include "cli/bake_options.h"
 
 #include "cli/common.h"
+#include "cli/lobe_files.h"
+#include "cli/options.h"
 #include "cli/scene_input.h"
 
 namespace lobelia::cli {
@@ -36,7 +38,8 @@ class Group {
 void add_encoding_options(CLI::App& command, BakeArguments& a) {
     BakeOptions& bake = a.job.bake;
     Group group(command, "Encoding");
-    group.with_default("--codec", bake.codec, "basis/encoder/evaluator, see lobelia list");
+    group.with_default("--codec", bake.codec, "basis/encoder/evaluator, see lobelia list")
+        ->transform(CLI::Validator(replace_lobe_file, ""));
     group.flag("--plain", a.plain, "Bake irradiance at the shading normal only, without a codec");
     group.choice("--frame", a.frame, {"world", "tangent"},
                  "Coordinate frame of spherical coefficients: world, or the tangent frame of each texel");
@@ -90,7 +93,8 @@ void add_probe_options(CLI::App& command, BakeArguments& a) {
                  "Also bake probes, in the box of the \"scene\" or in one given by two corners, x,y,z,x,y,z [m]");
     group.option("--probe-spacing", a.probe_spacing, "Probe grid spacing in metres, coarsest level (default: 1)")
         ->check(number_in(0.001, 10000));
-    group.with_default("--probe-codec", a.probes.codec, "Codec for probes (must be spherical)");
+    group.with_default("--probe-codec", a.probes.codec, "Codec for probes (must be spherical)")
+        ->transform(CLI::Validator(replace_lobe_file, ""));
     group.with_default("--probe-levels", a.probes.levels, "Maximum number of subdivisions of a grid cell")
         ->check(CLI::Range(0, 6));
     group.with_default("--probe-samples", a.probes.samples, "Samples per probe")

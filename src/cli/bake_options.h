@@ -1,11 +1,14 @@
 // The options of lobelia bake, and the job that they describe.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
 #include <vector>
 
 #include "lobelia/bake.h"
+
+namespace CLI {
+class App;
+}
 
 namespace lobelia::cli {
 

@@ -5,7 +5,7 @@
 
 #include "cli/common.h"
 #include "io/counted.h"
-#include "report/bake_page.h"
+#include "report/bake_report.h"
 
 namespace lobelia::cli {
 namespace {

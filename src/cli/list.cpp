@@ -3,11 +3,13 @@
 
 #include <algorithm>
 
+#include "cli/lobe_files.h"
+#include "cli/options.h"
 #include "cli/verbs.h"
 #include "core/storage/layout_text.h"
 #include "lobelia/codec.h"
 #include "lobelia/storage.h"
-#include "report/bases_page.h"
+#include "measure/bases_document.h"
 
 namespace lobelia::cli {
 namespace {
@@ -20,7 +22,7 @@ struct ListArguments {
     bool json = false;
 };
 
-/// Each evaluator with its bases; where they state other accuracies for it, a line for each.
+/// Each evaluator with its bases; one line for each accuracy that the bases state for it.
 void print_evaluators() {
     struct Entry {
         std::string name, accuracy, bases;
@@ -40,46 +42,47 @@ void print_evaluators() {
         }
     }
     std::stable_sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) { return a.name < b.name; });
-    fmt::print("evaluators: where they are valid, their largest error, their bases\n");
+    fmt::print("evaluators: valid range, largest error, bases\n");
     for (const Entry& e : entries) fmt::print("  {:<20} {}\n  {:<20}   {}\n", e.name, e.accuracy, "", e.bases);
 }
 
-/// The readings of glossy reflection with their bases; "sampled" has all.
-void print_gloss() {
-    std::vector<std::pair<std::string, std::string>> readings;
+/// The specular evaluators with their bases; "sampled" works with all.
+void print_specular() {
+    std::vector<std::pair<std::string, std::string>> evaluators;
     for (const auto& basis_name : basis_names())
         for (const auto& name : make_basis(basis_name).value()->specular_names()) {
             const auto known =
-                std::find_if(readings.begin(), readings.end(), [&](const auto& r) { return r.first == name; });
-            if (known == readings.end())
-                readings.emplace_back(name, basis_name);
+                std::find_if(evaluators.begin(), evaluators.end(), [&](const auto& e) { return e.first == name; });
+            if (known == evaluators.end())
+                evaluators.emplace_back(name, basis_name);
             else
                 known->second += ", " + basis_name;
         }
-    readings.emplace_back("sampled", "every basis");
-    fmt::print("readings of gloss\n");
-    for (const auto& [name, bases] : readings) fmt::print("  {:<20} {}\n", name, bases);
+    evaluators.emplace_back("sampled", "every basis");
+    fmt::print("specular evaluators\n");
+    for (const auto& [name, bases] : evaluators) fmt::print("  {:<20} {}\n", name, bases);
 }
 
 void print_axes() {
     fmt::print("bases\n");
     for (const auto& name : basis_names()) fmt::print("  {:<20} {}\n", name, make_basis(name).value()->description());
     for (const auto& [pattern, meaning] : basis_name_patterns()) fmt::print("  {:<20} {}\n", pattern, meaning);
+    fmt::print("  {:<20} {}\n", "sg:FILE, sgh:FILE",
+               "on the command line: lobes from a file, a line \"x y z sharpness\" each");
     fmt::print("encoders\n");
     for (const auto& name : encoder_names()) fmt::print("  {}\n", name);
-    fmt::print("encoders for study, not in the product\n");
+    fmt::print("encoders for study, not in the list of codecs\n");
     for (const auto& name : encoder_variant_names()) fmt::print("  {}\n", name);
     print_evaluators();
-    print_gloss();
+    print_specular();
     fmt::print("storages\n");
     for (const Storage& storage : storages()) fmt::print("  {:<20} {}\n", storage.name, storage.description);
     fmt::print("A codec is one of each, basis/encoder/evaluator; lobelia list prints all {} of the sensible product.\n",
                all_codecs().size());
 }
 
-/// The traits of a codec's coefficients; of a basis, those that its non-negative encoders give, where it has any.
+/// The traits of the coefficients of a codec; of a basis, those of its non-negative encoders if it has any.
 Result<CoefficientTraits> traits_of(const std::string& name) {
-    // A basis first: the path of a lobe file may hold slashes, too.
     const auto basis = make_basis(name);
     if (basis) return coefficient_traits(*basis);
     if (name.find('/') == std::string::npos) return basis.error();
@@ -116,15 +119,16 @@ Status print_layouts(const std::string& name, Output output) {
 }  // namespace
 
 Verb add_list(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("list", "Print the codecs, or what they are made of");
+    CLI::App* command = app.add_subcommand("list", "Print the codecs, or the parts that they are made of");
     auto options = std::make_shared<ListArguments>();
-    CLI::Option* axes = command->add_flag("--axes", options->axes,
-                                          "The bases, encoders, evaluators and storages with what they are, instead");
-    command->add_flag("--markdown", options->markdown, "The page of bases, docs/bases.md, instead")->excludes(axes);
+    CLI::Option* axes =
+        command->add_flag("--axes", options->axes, "List bases, encoders, evaluators and storages with descriptions");
+    command->add_flag("--markdown", options->markdown, "Write docs/bases.md to standard output")->excludes(axes);
     auto* layouts = command->add_option("--storages", options->storages,
-                                        "The textures in which each storage that suits keeps the coefficients of this "
-                                        "basis or codec, instead");
-    command->add_flag("--json", options->json, "These as JSON")->needs(layouts);
+                                        "List the textures in which each compatible storage keeps the coefficients of "
+                                        "this basis or codec");
+    layouts->transform(CLI::Validator(replace_lobe_file, ""));
+    command->add_flag("--json", options->json, "Print the textures as JSON")->needs(layouts);
     return {command, [options, layouts]() -> Status {
                 if (layouts->count() > 0)
                     return print_layouts(options->storages, options->json ? Output::json : Output::text);

@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <system_error>
 
+#include <CLI/CLI.hpp>
+
 #include "cli/common.h"
 #include "cli/verbs.h"
 
@@ -17,24 +19,25 @@ constexpr const char* k_short_help =
     R"(lobelia bakes light into lobes: it encodes HDR radiance into small spherical bases
 and measures how wrong each choice is.
 
-  lobelia compare sky                      every codec on the embedded sky, as a page
-  lobelia compare room.hdr --out report    the same on an environment of yours
+  lobelia compare sky                      all codecs on the embedded sky, as a report
+  lobelia compare room.hdr -o report       the same on an environment of yours
+  lobelia advise room.hdr --budget 64      the codec and storage for 64 bytes per probe
   lobelia encode room.hdr --codec sh2/least-squares/convolution -o room.json
   lobelia eval room.json --latlong 64x32 -o irradiance.exr
   lobelia convert room.json --to unity -o unity.json
   lobelia reference room.hdr --latlong 64x32 -o exact.exr
-  lobelia list --axes                      bases, encoders and evaluators
+  lobelia list --axes                      bases, encoders, evaluators, storages
   lobelia study irradiance                 how good each irradiance formula is
-  lobelia study specular                   and each reading of gloss
-  lobelia scene cornell -o cornell.glb     a scene to bake
+  lobelia study specular                   and each specular formula
+  lobelia scene cornell -o cornell.glb     an embedded scene as a glTF file
   lobelia unwrap in.glb -o out.glb         lightmap UVs for a scene of yours
-  lobelia bake cornell -o bake             lightmaps of a scene, and a page that shows them
+  lobelia bake cornell -o bake             lightmaps of a scene, with a report
   lobelia render bake -o picture.png       the scene, lit by its bake
 
-lobelia -h tells more, lobelia VERB -h all of a verb's options.
+lobelia -h lists all verbs, lobelia VERB -h all options of a verb.
 )";
 
-/// Parses the command line and does what it says.
+/// Parses the command line and runs the verb.
 int run(CLI::App& app, const std::vector<lobelia::cli::Verb>& verbs, int argc, char** argv) {
     try {
         app.parse(argc, argv);
@@ -56,23 +59,25 @@ int run(CLI::App& app, const std::vector<lobelia::cli::Verb>& verbs, int argc, c
 }  // namespace
 
 int main(int argc, char** argv) {
-    // A reader that leaves early (| head) ends the output, not the program with a signal.
+    // A closed pipe (| head) ends the output; it does not kill the program.
     std::signal(SIGPIPE, SIG_IGN);
 
     CLI::App app{"lobelia bakes light into lobes: encode radiance into spherical bases, measure the error.", "lobelia"};
     app.set_version_flag("--version", std::string("lobelia ") + LOBELIA_VERSION);
     app.require_subcommand(0, 1);
     app.get_formatter()->column_width(36);
-    app.footer("lobelia VERB -h tells a verb's options; lobelia alone shows examples.");
+    app.footer("lobelia VERB -h lists the options of a verb; lobelia alone shows examples.");
     std::vector<lobelia::cli::Verb> verbs;
-    for (const auto& add : lobelia::cli::k_verbs) verbs.push_back(add(app));
+#define LOBELIA_ADD_VERB(name) verbs.push_back(lobelia::cli::add_##name(app));
+    LOBELIA_VERBS(LOBELIA_ADD_VERB)
+#undef LOBELIA_ADD_VERB
 
     try {
         const int code = run(app, verbs, argc, argv);
         if (std::fflush(stdout) != 0) throw std::system_error(errno, std::generic_category(), "standard output");
         return code;
     } catch (const std::system_error& error) {
-        // Whoever reads the output has seen enough.
+        // The reader closed the pipe: success.
         if (error.code() == std::errc::broken_pipe) return 0;
         lobelia::cli::complain(std::string("lobelia: ") + error.what());
     } catch (const std::bad_alloc&) {

@@ -1,5 +1,6 @@
 // lobelia merge: shards of a bake, merged and finished.
 #include "cli/bake_session.h"
+#include "cli/options.h"
 #include "cli/scene_input.h"
 #include "cli/verbs.h"
 

@@ -14,7 +14,7 @@ namespace lobelia::cli {
 struct Finished {
     int code = 0;
     std::string out;  ///< what it printed
-    std::string err;  ///< what it said on stderr
+    std::string err;  ///< what it printed on stderr
 };
 
 /// Runs arguments[0], found on PATH, with the rest as they are: no shell sees them. Its input is empty. An error where

@@ -9,6 +9,7 @@
 #include "cli/bake_input.h"
 #include "cli/camera.h"
 #include "cli/common.h"
+#include "cli/options.h"
 #include "cli/scene_input.h"
 #include "cli/verbs.h"
 #include "io/write_image.h"

@@ -3,10 +3,11 @@
 #include <fmt/ranges.h>
 
 #include "cli/common.h"
+#include "cli/options.h"
 #include "cli/verbs.h"
 #include "io/write_image.h"
+#include "lobelia/gltf.h"
 #include "scene/embedded.h"
-#include "scene/gltf_write.h"
 
 namespace lobelia::cli {
 namespace {
@@ -22,9 +23,9 @@ Status scene_verb(const SceneArguments& options) {
     // Make everything before the first file is written.
     const auto scene = embedded_scene(options.name);
     if (!scene) return scene.error();
+    if (options.environment.empty()) return write_gltf(options.out, *scene);
     const auto glb = encode_glb(*scene);
     if (!glb) return glb.error();
-    if (options.environment.empty()) return write_file_atomically(options.out, *glb);
     if (!scene->environment)
         return Error{fmt::format("--environment: the scene {} has none: it is lit by its lamp alone", options.name)};
     const auto exr = encode_exr(*scene->environment);
@@ -40,7 +41,7 @@ Verb add_scene(CLI::App& app) {
     CLI::App* command = app.add_subcommand("scene", "Write a scene that the program carries as a glTF file");
     command->add_option("NAME", options->name, fmt::format("Which one: {}", fmt::join(embedded_scene_names(), ", ")))
         ->required();
-    command->add_option("-o,--output", options->out, "The file to write, .glb")->required();
+    command->add_option("-o,--out", options->out, "The file to write, .glb")->required();
     command->add_option("--environment", options->environment,
                         "Its environment, which glTF cannot hold, as another file (.exr)");
     return {command, [options] { return scene_verb(*options); }};

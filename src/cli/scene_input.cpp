@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "cli/common.h"
+#include "cli/options.h"
 #include "scene/embedded.h"
 
 namespace lobelia::cli {
@@ -58,11 +59,13 @@ Result<LoadedScene> load_scene_to_bake(const SceneSource& options) {
     auto loaded = load_scene(options);
     if (!loaded) return loaded;
     const auto& meshes = loaded->scene.meshes;
-    if (std::all_of(meshes.begin(), meshes.end(), [](const Mesh& mesh) { return mesh.lightmap_uv.empty(); }))
-        return Error{
-            fmt::format("{}: no object has lightmap UVs (TEXCOORD_{}); lobelia unwrap {} -o OUT.glb makes them",
-                        options.path, options.uv_set, options.path)};
-    return loaded;
+    if (!std::all_of(meshes.begin(), meshes.end(), [](const Mesh& mesh) { return mesh.lightmap_uv.empty(); }))
+        return loaded;
+    const auto& bare = loaded->parts_without_lightmap_uv;
+    return Error{fmt::format("{}: no object has lightmap UVs (TEXCOORD_{}){}; lobelia unwrap {} -o OUT.glb makes them",
+                             options.path, options.uv_set,
+                             bare.empty() ? "" : fmt::format(" on all its parts: {} lacks them", fmt::join(bare, ", ")),
+                             options.path)};
 }
 
 }  // namespace lobelia::cli

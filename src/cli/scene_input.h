@@ -1,9 +1,11 @@
 // The scene argument of bake, render and other verbs: an embedded scene or a file, and its environment.
 #pragma once
 
-#include <CLI/CLI.hpp>
-
 #include "lobelia/scene_source.h"
+
+namespace CLI {
+class App;
+}
 
 namespace lobelia::cli {
 

@@ -5,11 +5,13 @@
 
 #include "cli/common.h"
 #include "cli/interrupt.h"
+#include "cli/options.h"
 #include "cli/process.h"
 #include "cli/verbs.h"
 #include "io/counted.h"
+#include "io/json.h"
 #include "io/read_file.h"
-#include "scene/gltf_read.h"
+#include "lobelia/gltf.h"
 #include "scene/lightmap_check.h"
 
 namespace lobelia::cli {
@@ -109,15 +111,16 @@ Result<std::string> run_script(const UnwrapArguments& options, const std::filesy
     return std::move(finished->out);
 }
 
-/// What was made, from what the script printed.
-void print_result(const std::string& printed, const UnwrapArguments& options) {
-    const auto result = nlohmann::json::parse(printed, nullptr, false);
-    if (!result.is_object()) return;
-    fmt::print("{}, {}, {:.4g} texels per metre", counted(result.value("objects", 0u), "object"),
-               counted(result.value("charts", 0u), "chart"), result.value("density", 0.0));
-    if (options.layout == "shared")
-        fmt::print(" on a page of {0} x {0}: bake with --size {0}x{0}", result.value("size", 0));
-    fmt::print("\n");
+/// The script's report of its result as a sentence.
+Result<std::string> describe_result(const std::string& printed, const UnwrapArguments& options) {
+    return read_json(printed, "unwrap.mjs", [&](const JsonPlace& top) {
+        const auto whole = [&](const char* key) { return top.at(key).whole(0, std::uint64_t{1} << 32); };
+        std::string text = fmt::format("{}, {}, {:.4g} texels per metre", counted(whole("objects"), "object"),
+                                       counted(whole("charts"), "chart"), top.at("density").number());
+        if (options.layout == "shared")
+            text += fmt::format(" on a page of {0} x {0}: bake with --size {0}x{0}", whole("size"));
+        return text;
+    });
 }
 
 Status unwrap(const UnwrapArguments& options, const std::atomic<bool>& stop) {
@@ -136,13 +139,15 @@ Status unwrap(const UnwrapArguments& options, const std::atomic<bool>& stop) {
     const auto file = passing->path() / "unwrapped.glb";
     const auto printed = run_script(options, *folder, file, stop);
     if (!printed) return printed.error();
+    const auto description = describe_result(*printed, options);
+    if (!description) return description.error();
     if (const auto status = check_result(file, options); !status)
         return Error{options.in + ": " + status.error().message};
     if (stop) return Error{"stopped"};
     const auto bytes = read_file(file, k_most_bytes);
     if (!bytes) return bytes.error();
     if (const auto status = write_file_atomically(options.out, *bytes); !status) return status;
-    print_result(*printed, options);
+    fmt::print("{}\n", *description);
     return Done{};
 }
 
@@ -159,7 +164,7 @@ Verb add_unwrap(CLI::App& app) {
     auto options = std::make_shared<UnwrapArguments>();
     CLI::App* command = app.add_subcommand("unwrap", "Give a glTF scene lightmap UVs (needs Node.js)");
     command->add_option("SCENE", options->in, "A .glb or .gltf file")->required();
-    command->add_option("-o,--output", options->out, "The file to write, .glb")->required();
+    command->add_option("-o,--out", options->out, "The file to write, .glb")->required();
     command
         ->add_option("--layout", options->layout,
                      "shared: all objects in one square; object: each has its own, for bakes on several pages")

@@ -104,6 +104,7 @@ std::vector<JsonPlace> JsonPlace::list_of(std::size_t size) const {
 
 bool JsonPlace::is_object() const { return value_->is_object(); }
 bool JsonPlace::is_list() const { return value_->is_array(); }
+bool JsonPlace::is_null() const { return value_->is_null(); }
 std::size_t JsonPlace::size() const { return value_->is_structured() ? value_->size() : 0; }
 
 std::string_view JsonPlace::long_text() const {

@@ -77,6 +77,7 @@ class JsonPlace {
 
     [[nodiscard]] bool is_object() const;
     [[nodiscard]] bool is_list() const;
+    [[nodiscard]] bool is_null() const;
     /// Entries of an array or members of an object; 0 for other values.
     [[nodiscard]] std::size_t size() const;
 

@@ -89,40 +89,39 @@ FormatFacts bc6h(std::uint32_t qualifiers) {
     return {k_model_bc6h, 1, {{0, 128, k_float | qualifiers, qualifiers == k_signed ? k_minus_one : 0, k_one}}};
 }
 
-FormatFacts facts_of(PixelFormat format) {
-    switch (format) {
-        case PixelFormat::r32f:
+/// By VkFormat: pixel formats without one of their own, which are stored as R8G8B8A8_UNORM, need nothing here.
+FormatFacts facts_of(std::uint32_t vk_format) {
+    switch (vk_format) {
+        case 100:
             return floats(1, 32);
-        case PixelFormat::rg32f:
+        case 103:
             return floats(2, 32);
-        case PixelFormat::rgba32f:
+        case 109:
             return floats(4, 32);
-        case PixelFormat::r16f:
+        case 76:
             return floats(1, 16);
-        case PixelFormat::rg16f:
+        case 83:
             return floats(2, 16);
-        case PixelFormat::rgba16f:
+        case 97:
             return floats(4, 16);
-        case PixelFormat::r8:
+        case 9:
             return bytes(1);
-        case PixelFormat::rg8:
+        case 16:
             return bytes(2);
-        case PixelFormat::rgba8:
-        case PixelFormat::rgbe8:
-        case PixelFormat::rgbm8:
-        case PixelFormat::logluv32:
+        case 37:
             return bytes(4);
-        case PixelFormat::rgb10a2:
+        case 64:
             return ten_bits();
-        case PixelFormat::rgb9e5:
+        case 123:
             return shared_exponent();
-        case PixelFormat::bc6h_unsigned:
+        case 143:
             return bc6h(0);
-        case PixelFormat::bc6h_signed:
+        case 144:
             return bc6h(k_signed);
+        default:
+            assert(false);
+            return {};
     }
-    assert(false);
-    return {};
 }
 
 /// The basic data format descriptor.
@@ -161,7 +160,7 @@ Bytes key_values(std::map<std::string, std::string> metadata) {
 Bytes beginning(const Ktx2Texture& texture) {
     constexpr std::size_t k_header = 80, k_level = 24;
     const FormatInfo& format = info(texture.format);
-    const FormatFacts facts = facts_of(texture.format);
+    const FormatFacts facts = facts_of(info(texture.format).vk_format);
     const Bytes described = descriptor(facts, format), metadata = key_values(texture.metadata);
     const std::size_t format_begin = k_header + k_level, metadata_begin = format_begin + described.size();
     const std::size_t alignment = std::lcm(format.block_bytes, std::size_t{4});

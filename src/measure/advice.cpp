@@ -133,7 +133,7 @@ std::string_view to_string(Need need) {
         case Need::irradiance:
             return "irradiance";
         case Need::specular:
-            return "gloss";
+            return "specular";
     }
     return {};
 }
@@ -151,6 +151,20 @@ Result<Advice> advise(std::vector<Candidate> candidates, const AdviceOptions& op
     return advice;
 }
 
+std::string to_text(const Advice& advice) {
+    const std::string error = fmt::format("{} error", to_string(advice.options.need));
+    std::string text = fmt::format("{:<42} {:<14} {:>8} {:>17} {:>8}\n", "codec", "storage", "bytes", error, "ns");
+    double least = HUGE_VAL;
+    for (std::size_t i = 0; i < advice.front.size(); ++i) {
+        const Candidate& c = advice.front[i];
+        if (c.error >= least && i != advice.recommended) continue;
+        least = std::min(least, c.error);
+        text += fmt::format("{:<42} {:<14} {:>8.4g} {:>15.3g} % {:>8} {}\n", c.codec.str(), c.storage, c.bytes,
+                            100 * c.error, nanoseconds_text(c), i == advice.recommended ? "<-" : "");
+    }
+    return text + "\n" + advice.reason + "\n";
+}
+
 nlohmann::json to_json(const Advice& advice) {
     const auto entry = [](const Candidate& c) {
         nlohmann::json j = {{"codec", c.codec.str()}, {"storage", c.storage}, {"bytes", c.bytes}, {"error", c.error}};
@@ -158,7 +172,7 @@ nlohmann::json to_json(const Advice& advice) {
         return j;
     };
     nlohmann::json j = {{"format", 1},
-                        {"need", advice.options.need == Need::specular ? "specular" : to_string(advice.options.need)},
+                        {"need", to_string(advice.options.need)},
                         {"target", advice.options.target},
                         {"reason", advice.reason}};
     if (advice.options.budget) j["budget"] = *advice.options.budget;

@@ -11,17 +11,17 @@
 
 namespace lobelia {
 
-/// What is read from the coefficients.
+/// What the coefficients are evaluated for.
 enum class Need { radiance, irradiance, specular };
 [[nodiscard]] std::string_view to_string(Need need);
 
-/// A codec in a storage, and what it takes and gives.
+/// A codec in a storage: its size, error and time.
 struct Candidate {
     CodecName codec;
     std::string storage;
     double bytes = 0;        ///< for a texel or probe
-    double error = 0;        ///< RMS of what is needed, over its mean
-    double nanoseconds = 0;  ///< to read it in one direction or at one normal, as measured; 0 where it was not
+    double error = 0;        ///< RMS, over the mean
+    double nanoseconds = 0;  ///< to evaluate one direction or normal; 0 if not measured
 };
 
 struct AdviceOptions {
@@ -45,9 +45,11 @@ struct Advice {
 /// of it. Error: no candidates, or none within the budget.
 [[nodiscard]] Result<Advice> advise(std::vector<Candidate> candidates, const AdviceOptions& options = {});
 
+/// A table for people: from the front, the best for its bytes and the recommended one; then the reason.
+[[nodiscard]] std::string to_text(const Advice& advice);
 /// All of it, for scripts.
 [[nodiscard]] nlohmann::json to_json(const Advice& advice);
-/// A table of the front and its plot, for people; `subject` is what the advice is for.
+/// A table of the whole front and its plot; `subject` names the environment or scene.
 [[nodiscard]] Study to_study(const Advice& advice, const std::string& subject);
 
 }  // namespace lobelia

@@ -1,4 +1,4 @@
-// The comparison: encode all, evaluate all, judge all, in parallel over codecs.
+// The comparison: encode all, evaluate all, measure all, in parallel over codecs.
 #include "measure/comparison.h"
 
 #include <oneapi/tbb/parallel_for.h>
@@ -19,16 +19,16 @@ double milliseconds_since(Clock::time_point start) {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-/// What one domain is sampled by and judged against.
+/// Samples and references of one domain.
 struct Stage {
-    Samples samples;  ///< in the order in which encoders see them
-    Samples judged;   ///< directions, reference radiance and weights of the judging grid
+    Samples samples;   ///< in the order in which encoders see them
+    Samples measured;  ///< directions, reference radiance and weights of the measuring grid
     Colours reference_irradiance_over_pi;
 };
 
 constexpr std::size_t k_normals_at_once = 512;
 
-/// The entries of a whole grid that a domain's texels are, in their order.
+/// Restricts colours of a whole grid to the texels of a domain, in their order.
 Colours restricted(const Colours& grid_colours, LatLong grid, Domain domain) {
     const auto kept = grid.texels_of(domain);
     Colours result(kept.size());
@@ -36,7 +36,7 @@ Colours restricted(const Colours& grid_colours, LatLong grid, Domain domain) {
     return result;
 }
 
-/// A basis with its encoders, evaluators and all that was computed of them.
+/// A basis with the encoders and evaluators to run.
 struct BasisRun {
     std::shared_ptr<const Basis> basis;
     std::vector<std::string> encoders;
@@ -54,8 +54,8 @@ struct Encoding {
     Colours picture = {};
 };
 
-/// One (basis, evaluator): irradiance of all the basis's encodings at once.
-struct Reading {
+/// One (basis, evaluator): irradiance of all encodings of the basis at once.
+struct Evaluation {
     const BasisRun* run = nullptr;
     std::string evaluator = {};
     Negative negative = Negative::kept;
@@ -68,7 +68,7 @@ struct Reading {
 class Run {
   public:
     Run(const Image& environment, const ComparisonOptions& options, const Progress& progress)
-        : environment_(resize(environment, reduced_grid(lat_long(environment), options.most_texels))),
+        : environment_(resize(environment, reduced_grid(lat_long(environment), options.sampling.most_texels))),
           options_(options),
           progress_(progress) {}
 
@@ -76,7 +76,7 @@ class Run {
         if (auto status = collect(codecs); !status) return status.error();
         prepare_stages();
         encode_all();
-        read_all();
+        evaluate_all();
         Comparison result = assemble(codecs);
         store_all(result.methods);
         if (options_.convergence) result.convergence = converge();
@@ -102,26 +102,26 @@ class Run {
         }
         for (const BasisRun& run : runs_) {
             for (const auto& encoder : run.encoders) encodings_.push_back({.run = &run, .encoder = encoder});
-            for (const auto& evaluator : run.evaluators) readings_.push_back({.run = &run, .evaluator = evaluator});
+            for (const auto& evaluator : run.evaluators) evaluations_.push_back({.run = &run, .evaluator = evaluator});
         }
         return Done{};
     }
 
     void prepare_stages() {
-        const Image judged = resize(environment_, k_judging_grid);
+        const Image measured = resize(environment_, k_measuring_grid);
         for (const BasisRun& run : runs_) {
             const Domain domain = run.basis->domain();
             if (stages_.contains(domain)) continue;
             Stage& stage = stages_[domain];
-            stage.samples = arriving_samples(environment_, domain, options_);
-            stage.judged = texel_samples(judged, domain);
+            stage.samples = environment_samples(environment_, domain, options_.sampling);
+            stage.measured = texel_samples(measured, domain);
             const Samples texels = texel_samples(environment_, domain);
-            Colours irradiance = lat_long_irradiance(texels, k_judging_grid, domain);
+            Colours irradiance = lat_long_irradiance(texels, k_measuring_grid, domain);
             scale(irradiance, k_over_pi);
-            stage.reference_irradiance_over_pi = restricted(irradiance, k_judging_grid, domain);
+            stage.reference_irradiance_over_pi = restricted(irradiance, k_measuring_grid, domain);
             if (options_.pictures) {
                 auto& pictures = pictures_.references[domain];
-                pictures.radiance = radiance_of(judged);
+                pictures.radiance = radiance_of(measured);
                 pictures.irradiance_over_pi = lat_long_irradiance(texels, k_irradiance_picture, domain);
                 scale(pictures.irradiance_over_pi, k_over_pi);
             }
@@ -140,13 +140,13 @@ class Run {
             e.c = accumulator.solve();
             e.milliseconds = milliseconds_since(start);
 
-            const SampleView judged = stage.judged;
-            Colours radiance(judged.size);
-            e.run->basis->radiance(e.c, judged.directions(), radiance);
-            const std::span weights{judged.solid_angles(), judged.size};
-            e.radiance[Negative::kept] = errors(radiance, judged.radiance(), weights);
+            const SampleView measured = stage.measured;
+            Colours radiance(measured.size);
+            e.run->basis->radiance(e.c, measured.directions(), radiance);
+            const std::span weights{measured.solid_angles(), measured.size};
+            e.radiance[Negative::kept] = errors(radiance, measured.radiance(), weights);
             clamp_negative(radiance);
-            e.radiance[Negative::clamped] = errors(radiance, judged.radiance(), weights);
+            e.radiance[Negative::clamped] = errors(radiance, measured.radiance(), weights);
             if (options_.pictures) {
                 e.picture = Colours(k_radiance_picture.size());
                 e.run->basis->radiance(e.c, k_radiance_picture.directions(e.run->basis->domain()), e.picture);
@@ -155,43 +155,43 @@ class Run {
         });
     }
 
-    void read_all() {
-        tbb::parallel_for(std::size_t{0}, readings_.size(), [&](std::size_t i) {
-            read(readings_[i]);
-            step(0.2 / static_cast<double>(readings_.size()));
+    void evaluate_all() {
+        tbb::parallel_for(std::size_t{0}, evaluations_.size(), [&](std::size_t i) {
+            evaluate(evaluations_[i]);
+            step(0.2 / static_cast<double>(evaluations_.size()));
         });
     }
 
-    void read(Reading& reading) const {
-        const auto evaluator = make_evaluator(reading.evaluator, *reading.run->basis).value();
-        reading.negative = evaluator->negative();
-        const Stage& stage = stages_.at(reading.run->basis->domain());
-        const SampleView judged = stage.judged;
+    void evaluate(Evaluation& evaluation) const {
+        const auto evaluator = make_evaluator(evaluation.evaluator, *evaluation.run->basis).value();
+        evaluation.negative = evaluator->negative();
+        const Stage& stage = stages_.at(evaluation.run->basis->domain());
+        const SampleView measured = stage.measured;
         std::vector<const Encoding*> encodings;
         for (const Encoding& e : encodings_)
-            if (e.run == reading.run) encodings.push_back(&e);
+            if (e.run == evaluation.run) encodings.push_back(&e);
 
-        auto outputs = signed_irradiance_over_pi(*evaluator, encodings, judged.directions());
+        auto outputs = signed_irradiance_over_pi(*evaluator, encodings, measured.directions());
         for (std::size_t k = 0; k < encodings.size(); ++k) {
-            const std::span weights{judged.solid_angles(), judged.size};
+            const std::span weights{measured.solid_angles(), measured.size};
             const double negative = negative_share(outputs[k], weights);
-            if (reading.negative == Negative::clamped) clamp_negative(outputs[k]);
-            Errors& e = reading.irradiance[encodings[k]->encoder];
+            if (evaluation.negative == Negative::clamped) clamp_negative(outputs[k]);
+            Errors& e = evaluation.irradiance[encodings[k]->encoder];
             e = errors(outputs[k], stage.reference_irradiance_over_pi, weights);
             e.negative_share = negative;
         }
         if (options_.pictures) {
             auto pictures = signed_irradiance_over_pi(*evaluator, encodings,
-                                                      k_irradiance_picture.directions(reading.run->basis->domain()));
+                                                      k_irradiance_picture.directions(evaluation.run->basis->domain()));
             for (std::size_t k = 0; k < encodings.size(); ++k)
-                reading.pictures[encodings[k]->encoder] = std::move(pictures[k]);
+                evaluation.pictures[encodings[k]->encoder] = std::move(pictures[k]);
         }
 
-        reading.nanoseconds = nanoseconds_per_normal(*evaluator, encodings[0]->c, judged.directions(), outputs[0]);
+        evaluation.nanoseconds = nanoseconds_per_normal(*evaluator, encodings[0]->c, measured.directions(), outputs[0]);
     }
 
-    /// Of one set of coefficients alone, on enough normals to drown the clock: the least of a few times, since others
-    /// may take the processor in between.
+    /// Times one set of coefficients on enough normals for the clock: the least of a few runs, since other programs may
+    /// take the processor in between.
     static double nanoseconds_per_normal(const Evaluator& evaluator, std::span<const Rgb> c, DirectionView normals,
                                          MutableColourView out) {
         const DirectionView timed = normals.part(0, std::min<std::size_t>(normals.size, 4096));
@@ -204,8 +204,8 @@ class Run {
         return 1e6 * least / static_cast<double>(timed.size);
     }
 
-    /// E / pi of several encodings of one basis, what is below 0 kept; a linear evaluator's weights are computed once
-    /// for all.
+    /// E / pi of several encodings of one basis, negative values kept; the weights of a linear evaluator are computed
+    /// once for all.
     static std::vector<Colours> signed_irradiance_over_pi(const Evaluator& evaluator,
                                                           const std::vector<const Encoding*>& encodings,
                                                           DirectionView normals) {
@@ -221,7 +221,7 @@ class Run {
         return outputs;
     }
 
-    /// Stores and judges every method's coefficients in every storage that was asked for.
+    /// Stores and measures every method's coefficients in every storage that was asked for.
     void store_all(std::vector<Method>& methods) const {
         if (options_.storages.empty()) return;
         tbb::parallel_for(std::size_t{0}, methods.size(), [&](std::size_t i) {
@@ -230,21 +230,21 @@ class Run {
             const Codec codec(method.name, e.made, make_evaluator(method.name.evaluator, *e.run->basis).value());
             const Stage& stage = stages_.at(method.domain);
             method.storage =
-                storage_errors(codec, method.c, options_.storages, stage.judged, stage.reference_irradiance_over_pi);
+                storage_errors(codec, method.c, options_.storages, stage.measured, stage.reference_irradiance_over_pi);
         });
     }
 
     [[nodiscard]] Comparison assemble(const std::vector<CodecName>& codecs) {
         Comparison result;
         result.reference = "exact sum over texels";
-        result.sequence = sampling_name(options_.sequence);
+        result.sequence = sampling_name(options_.sampling.sequence);
         result.samples = stages_.begin()->second.samples.size();
-        result.seed = options_.seed;
+        result.seed = options_.sampling.seed;
         result.grid = lat_long(environment_);
         result.mean_radiance = mean_radiance(environment_);
         for (const CodecName& name : codecs) {
             const Encoding& e = encoding(name);
-            const Reading& r = reading(name);
+            const Evaluation& r = evaluation(name);
             Errors radiance = e.radiance.at(r.negative);
             radiance.negative_share = e.radiance.at(Negative::kept).negative_share;
             result.methods.push_back({name,
@@ -257,11 +257,10 @@ class Run {
                                       {}});
         }
         if (options_.pictures) {
-            for (auto& reading : readings_)
-                for (auto& [encoder, picture] : reading.pictures)
-                    pictures_
-                        .irradiance_over_pi[CodecName{reading.run->basis->name(), encoder, reading.evaluator}.str()] =
-                        std::move(picture);
+            for (auto& evaluation : evaluations_)
+                for (auto& [encoder, picture] : evaluation.pictures)
+                    pictures_.irradiance_over_pi[CodecName{evaluation.run->basis->name(), encoder, evaluation.evaluator}
+                                                     .str()] = std::move(picture);
             for (auto& e : encodings_)
                 pictures_.radiance[e.run->basis->name() + "/" + e.encoder] = std::move(e.picture);
             result.pictures = std::move(pictures_);
@@ -272,10 +271,10 @@ class Run {
     [[nodiscard]] std::vector<Convergence> converge() {
         std::vector<ConvergenceTask> tasks;
         for (const BasisRun& run : runs_)
-            if (run.basis->linear() && run.basis->listed_encoders().empty() &&
+            if (run.basis->linear() && card_of(*run.basis).encoders.empty() &&
                 run.basis->size() <= k_most_converging_size)
                 tasks.push_back({run.basis, run.encoders, {k_sequences.begin(), k_sequences.end()}});
-        return measure_convergence(environment_, tasks, {.seed = options_.seed}, [&](double done) {
+        return measure_convergence(environment_, tasks, {.seed = options_.sampling.seed}, [&](double done) {
             report(k_before_convergence + done * (1 - k_before_convergence));
         });
     }
@@ -285,8 +284,8 @@ class Run {
             return e.run->basis->name() == name.basis && e.encoder == name.encoder;
         });
     }
-    [[nodiscard]] const Reading& reading(const CodecName& name) const {
-        return *std::find_if(readings_.begin(), readings_.end(), [&](const Reading& r) {
+    [[nodiscard]] const Evaluation& evaluation(const CodecName& name) const {
+        return *std::find_if(evaluations_.begin(), evaluations_.end(), [&](const Evaluation& r) {
             return r.run->basis->name() == name.basis && r.evaluator == name.evaluator;
         });
     }
@@ -316,27 +315,21 @@ class Run {
     std::vector<BasisRun> runs_;
     std::map<Domain, Stage> stages_;
     std::vector<Encoding> encodings_;
-    std::vector<Reading> readings_;
+    std::vector<Evaluation> evaluations_;
     ComparisonPictures pictures_;
 };
 
 }  // namespace
 
+std::string_view domain_name(Domain domain) { return domain == Domain::sphere ? "sphere" : "hemisphere"; }
+
 std::string sampling_name(std::optional<Sequence> sequence) {
     return sequence ? std::string(sequence_name(*sequence)) : "texels";
 }
 
-Samples arriving_samples(const Image& environment, Domain domain, const ComparisonOptions& options) {
-    const Image reduced = resize(environment, reduced_grid(lat_long(environment), options.most_texels));
-    if (!options.sequence) {
-        const Samples texels = shuffled_texel_samples(reduced, domain, options.seed);
-        return first(texels, options.samples.value_or(texels.size()));
-    }
-    // Shuffle, with a seed of its own: encoders that learn as they go need samples without an order.
-    const std::size_t count = options.samples.value_or(k_default_sequence_samples);
-    const Directions directions = uniform_directions(domain, *options.sequence, count, options.seed);
-    std::mt19937 generator(~options.seed);
-    return reordered(directed_samples(reduced, directions, domain), shuffled_order(count, generator));
+double mean_value(const Comparison& comparison) {
+    const Rgb mean = comparison.mean_radiance;
+    return (double{mean.r} + mean.g + mean.b) / 3;
 }
 
 Result<Comparison> compare(const Image& environment, const std::vector<CodecName>& codecs,

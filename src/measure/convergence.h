@@ -1,11 +1,11 @@
-// How fast encoders converge: excess error against the number of samples, for point sequences.
+// Convergence of encoders: excess error against the number of samples, for point sequences.
 #pragma once
 
 #include "measure/comparison.h"
 
 namespace lobelia {
 
-/// A basis, and which encoders to follow with which sequences.
+/// A basis, and the encoders and sequences to measure.
 struct ConvergenceTask {
     std::shared_ptr<const Basis> basis;  ///< a linear one
     std::vector<std::string> encoders;

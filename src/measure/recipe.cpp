@@ -5,7 +5,7 @@
 
 #include <chrono>
 
-#include "core/encode/sequential.h"
+#include "lobelia/encoders.h"
 
 namespace lobelia {
 namespace {
@@ -63,7 +63,7 @@ Colours noisy_irradiance_over_pi(const Image& environment) {
     for (std::size_t j = 0; j < k_reference_draws; ++j) {
         const std::size_t column = generator() % grid.size();
         const std::size_t i = table.choose(column, static_cast<double>(generator()) * 0x1p-32);
-        // Where float32 let the table end on a texel of no weight, it counts for nothing.
+        // Rounding may let the table choose a texel of zero weight: count it as zero.
         const double share =
             weights[i] > 0 ? solid_angles[i] * (sum / static_cast<double>(weights[i])) / k_reference_draws : 0;
         draws.set(j, {grid.direction(i), environment.pixels[i], static_cast<float>(share)});
@@ -100,15 +100,15 @@ Colours irradiance_over_pi(const Codec& codec, std::span<const Rgb> c, Direction
     return out;
 }
 
-/// What every method is held against.
-struct Judge {
+/// The reference of every method.
+struct Reference {
     Samples texels;
     Colours irradiance_over_pi;
 };
 
-Method run_method(const Codec& codec, SampleView samples, const Judge& judge) {
+Method run_method(const Codec& codec, SampleView samples, const Reference& reference) {
     using Steady = std::chrono::steady_clock;
-    const SampleView texels = judge.texels;
+    const SampleView texels = reference.texels;
     const std::span<const float> weights{texels.solid_angles(), texels.size};
     Method method{codec.name(), Domain::sphere, {}, {}, {}, 0, 0};
     const auto start = Steady::now();
@@ -122,7 +122,7 @@ Method run_method(const Codec& codec, SampleView samples, const Judge& judge) {
     const Colours irradiance = irradiance_over_pi(codec, method.c, texels.directions());
     method.evaluate_ns_per_normal =
         std::chrono::duration<double, std::nano>(Steady::now() - read_start).count() / static_cast<double>(texels.size);
-    method.irradiance_over_pi = recipe_errors(irradiance, judge.irradiance_over_pi, weights);
+    method.irradiance_over_pi = recipe_errors(irradiance, reference.irradiance_over_pi, weights);
     return method;
 }
 
@@ -148,13 +148,13 @@ Comparison run_recipe(Recipe recipe, const Image& environment, const ComparisonO
     result.seed = std::mt19937::default_seed;
     result.grid = grid;
     result.mean_radiance = mean_radiance(environment);
-    const Judge judge{texel_samples(environment), noisy_irradiance_over_pi(environment)};
+    const Reference reference{texel_samples(environment), noisy_irradiance_over_pi(environment)};
     const Samples ordered = directed_samples(
         environment, uniform_directions(Domain::sphere, *sequence_from_name(result.sequence), k_sample_count, 0),
         Domain::sphere);
     if (options.pictures)
-        result.pictures.references[Domain::sphere] = {radiance_of(resize(environment, k_judging_grid)),
-                                                      judge.irradiance_over_pi};
+        result.pictures.references[Domain::sphere] = {radiance_of(resize(environment, k_measuring_grid)),
+                                                      reference.irradiance_over_pi};
 
     // Both shuffled methods draw on one generator, one after the other.
     const auto basis = as_linear(make_basis(k_basis).value());
@@ -167,7 +167,7 @@ Comparison run_recipe(Recipe recipe, const Image& environment, const ComparisonO
         const Samples samples = methods[i].order == RecipeMethod::shuffled
                                     ? reordered(ordered, shuffled_order(k_sample_count, generator))
                                     : ordered;
-        result.methods.push_back(run_method(codec, samples, judge));
+        result.methods.push_back(run_method(codec, samples, reference));
         if (options.pictures) add_pictures(result.pictures, codec, result.methods.back().c);
         if (progress) progress(static_cast<double>(i + 1) / static_cast<double>(methods.size()));
     }

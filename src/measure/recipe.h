@@ -1,4 +1,4 @@
-// The two published comparisons on ennis.hdr, reproduced to the letter, with their noisy reference and their quirks.
+// The two published comparisons on ennis.hdr, reproduced exactly, with their noisy reference and their quirks.
 // Roughton 2018: the first version of the post (published) and its corrected one (updated).
 #pragma once
 

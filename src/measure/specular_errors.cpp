@@ -1,4 +1,4 @@
-// The reflection of all texels at all points is summed once; then every coefficient vector is read there.
+// Sums the reflection of all texels at all points once, then evaluates every coefficient vector there.
 #include "measure/specular_errors.h"
 
 #include <tbb/parallel_for.h>
@@ -6,29 +6,29 @@
 #include <chrono>
 #include <cmath>
 
+#include "coefficients/encode.h"
 #include "core/math/ggx.h"
 #include "lobelia/environment.h"
 #include "lobelia/sampling.h"
 #include "lobelia/specular.h"
-#include "measure/comparison.h"
 
 namespace lobelia {
 namespace {
 
-/// Points of surfaces that face their viewer, and what they reflect.
-struct GlossPoints {
+/// Surface points that face their viewer, and their reference reflection.
+struct SpecularSurfaces {
     Directions normals;
     std::vector<float> alphas;
-    Colours truth;
-    double mean = 0;  ///< of the truth's channels
+    Colours reference;
+    double mean = 0;  ///< of the reference's channels
 
     [[nodiscard]] SpecularPoints points() const { return {normals, normals, alphas}; }
 };
 
-GlossPoints points_for(SampleView texels, const GlossOptions& options) {
+SpecularSurfaces points_for(SampleView texels, const SpecularErrorOptions& options) {
     const Directions around = uniform_directions(Domain::sphere, Sequence::hammersley, options.directions, 0);
     const std::size_t count = options.directions * options.alphas.size();
-    GlossPoints result{Directions(count), std::vector<float>(count), Colours(count)};
+    SpecularSurfaces result{Directions(count), std::vector<float>(count), Colours(count)};
     tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
         const Vec3 normal = direction_at(around, i % options.directions);
         const float alpha = options.alphas[i / options.directions];
@@ -41,20 +41,20 @@ GlossPoints points_for(SampleView texels, const GlossOptions& options) {
                 ggx::reflection(view, view.to_local(direction_at(texels.directions(), k))) * texels.solid_angles()[k];
             for (std::size_t c = 0; c < 3; ++c) sum[c] += weight * texels.radiance().channel(c)[k];
         }
-        set_entry(result.truth.view(), i,
+        set_entry(result.reference.view(), i,
                   Rgb{static_cast<float>(sum[0]), static_cast<float>(sum[1]), static_cast<float>(sum[2])});
     });
     for (std::size_t c = 0; c < 3; ++c)
         for (std::size_t i = 0; i < count; ++i)
-            result.mean += result.truth.channel(c)[i] / (3 * static_cast<double>(count));
+            result.mean += result.reference.channel(c)[i] / (3 * static_cast<double>(count));
     return result;
 }
 
-struct Reading {
+struct Evaluated {
     double error = 0, nanoseconds = 0;
 };
 
-Reading read(const SpecularEvaluator& evaluator, std::span<const Rgb> c, const GlossPoints& at) {
+Evaluated evaluate(const SpecularEvaluator& evaluator, std::span<const Rgb> c, const SpecularSurfaces& at) {
     Colours out(at.alphas.size());
     const auto start = std::chrono::steady_clock::now();
     evaluator.reflected(c, at.points(), out);
@@ -62,15 +62,15 @@ Reading read(const SpecularEvaluator& evaluator, std::span<const Rgb> c, const G
     double squares = 0;
     for (std::size_t k = 0; k < 3; ++k)
         for (std::size_t i = 0; i < out.size(); ++i)
-            squares += std::pow(double{out.channel(k)[i]} - at.truth.channel(k)[i], 2);
+            squares += std::pow(double{out.channel(k)[i]} - at.reference.channel(k)[i], 2);
     const auto count = static_cast<double>(out.size());
     return {std::sqrt(squares / (3 * count)) / at.mean, time.count() / count};
 }
 
-/// All readings of one basis.
-class BasisGloss {
+/// All specular evaluators of one basis.
+class BasisReflection {
   public:
-    BasisGloss(std::shared_ptr<const Basis> basis, SampleView texels, const GlossPoints& points)
+    BasisReflection(std::shared_ptr<const Basis> basis, SampleView texels, const SpecularSurfaces& points)
         : basis_(std::move(basis)), points_(points) {
         for (const auto& name : encoder_names(*basis_)) {
             auto encoder = make_encoder(name, basis_).value();
@@ -80,14 +80,14 @@ class BasisGloss {
         }
     }
 
-    void add_readings(std::span<const Storage* const> storages, std::vector<GlossError>& errors) const {
+    void add_errors(std::span<const Storage* const> storages, std::vector<SpecularError>& errors) const {
         for (const auto& name : specular_names(*basis_)) {
             const auto evaluator = make_specular(name, basis_).value();
-            // The encoder that reads best; the others take as many bytes.
+            // Choose the encoder of the least error: all take as many bytes.
             const Encoding* best = nullptr;
             double least = HUGE_VAL;
             for (const Encoding& e : encodings_)
-                if (const double error = read(*evaluator, e.c, points_).error; error < least) {
+                if (const double error = evaluate(*evaluator, e.c, points_).error; error < least) {
                     best = &e;
                     least = error;
                 }
@@ -95,7 +95,7 @@ class BasisGloss {
             const auto traits = coefficient_traits(*best->encoder);
             for (const Storage* storage : storages) {
                 if (!suits(*storage, traits)) continue;
-                const auto [error, time] = read(*evaluator, stored_and_read(*storage, traits, best->c), points_);
+                const auto [error, time] = evaluate(*evaluator, stored_and_read(*storage, traits, best->c), points_);
                 errors.push_back({basis_->name(), best->name, std::string(storage->name), name,
                                   bytes_per_texel(storage->layout(traits)), error, time});
             }
@@ -109,23 +109,23 @@ class BasisGloss {
         std::vector<Rgb> c;
     };
     std::shared_ptr<const Basis> basis_;
-    const GlossPoints& points_;
+    const SpecularSurfaces& points_;
     std::vector<Encoding> encodings_;
 };
 
 }  // namespace
 
-std::vector<GlossError> gloss_errors(const Image& environment, const GlossOptions& options) {
-    const Samples texels = arriving_samples(environment, Domain::sphere, {});
-    const GlossPoints points = points_for(texels, options);
+std::vector<SpecularError> specular_errors(const Image& environment, const SpecularErrorOptions& options) {
+    const Samples texels = environment_samples(environment, Domain::sphere);
+    const SpecularSurfaces points = points_for(texels, options);
     std::vector<std::shared_ptr<const Basis>> bases;
     for (const auto& name : basis_names())
         if (auto basis = make_basis(name).value(); basis->domain() == Domain::sphere) bases.push_back(std::move(basis));
-    std::vector<std::vector<GlossError>> of_basis(bases.size());
+    std::vector<std::vector<SpecularError>> of_basis(bases.size());
     tbb::parallel_for(std::size_t{0}, bases.size(), [&](std::size_t i) {
-        BasisGloss(bases[i], texels, points).add_readings(options.storages, of_basis[i]);
+        BasisReflection(bases[i], texels, points).add_errors(options.storages, of_basis[i]);
     });
-    std::vector<GlossError> all;
+    std::vector<SpecularError> all;
     for (auto& errors : of_basis) all.insert(all.end(), errors.begin(), errors.end());
     return all;
 }

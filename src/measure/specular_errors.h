@@ -1,4 +1,4 @@
-// How far gloss that is read from coefficients is from the gloss of the environment itself.
+// Errors of specular reflection evaluated from coefficients, against the reflection of the environment itself.
 #pragma once
 
 #include <memory>
@@ -11,22 +11,23 @@
 
 namespace lobelia {
 
-/// A codec without its evaluator of irradiance, read as glossy reflection.
-struct GlossError {
-    std::string basis, encoder, storage, reading;
+/// The error of one specular evaluator on the coefficients of a basis, as stored.
+struct SpecularError {
+    std::string basis, encoder, storage, evaluator;
     double bytes = 0;
     double error = 0;        ///< RMS over points and channels, over the mean reflected radiance
-    double nanoseconds = 0;  ///< to read one point
+    double nanoseconds = 0;  ///< to evaluate one point
 };
 
-struct GlossOptions {
+struct SpecularErrorOptions {
     std::size_t directions = 384;              ///< seen along the normal, spread over the sphere, for each alpha
     std::vector<float> alphas = {0.1f, 0.3f};  ///< of GGX: roughness 0.32 and 0.55 of glTF
     std::vector<const Storage*> storages;
 };
 
-/// Every reading of every basis over the sphere, in every storage that suits it; of its encoders the one that reads
-/// best as float32. `environment` is given to encoders texel by texel, and the truth is the exact sum over its texels.
-[[nodiscard]] std::vector<GlossError> gloss_errors(const Image& environment, const GlossOptions& options);
+/// Measures every specular evaluator of every spherical basis in every compatible storage; of the encoders, the one
+/// with the least error as float32. `environment` is given to encoders texel by texel; the reference is the exact sum
+/// over its texels.
+[[nodiscard]] std::vector<SpecularError> specular_errors(const Image& environment, const SpecularErrorOptions& options);
 
 }  // namespace lobelia

@@ -1,4 +1,4 @@
-// Packs, unpacks and judges coefficients.
+// Packs, unpacks and measures coefficients.
 #include "measure/storage_errors.h"
 
 #include "lobelia/metrics.h"
@@ -8,7 +8,7 @@ namespace {
 
 double part(Rgb c, std::size_t k) { return k == 0 ? c.r : k == 1 ? c.g : c.b; }
 
-/// What the storage's bound allows each value of a single texel to be off by.
+/// The largest errors that the storage's bound allows the values of a single texel.
 std::vector<float> allowed_errors(const Storage& storage, const CoefficientTraits& traits, std::span<const Rgb> c) {
     std::vector<float> values(3 * c.size()), allowed(values.size());
     CoefficientPlanes in(1, 1, {});
@@ -22,9 +22,9 @@ std::vector<float> allowed_errors(const Storage& storage, const CoefficientTrait
     return allowed;
 }
 
-/// The errors of coefficients: how large they are, and how large they might be.
-void judge_coefficients(const std::vector<float>& allowed, std::span<const Rgb> c, std::span<const Rgb> read,
-                        StorageErrors& result) {
+/// Compares the errors of coefficients with their bounds.
+void measure_coefficients(const std::vector<float>& allowed, std::span<const Rgb> c, std::span<const Rgb> read,
+                          StorageErrors& result) {
     double largest = 0;
     for (std::size_t p = 0; p < allowed.size(); ++p) largest = std::max(largest, std::abs(part(c[p / 3], p % 3)));
     if (!(largest > 0)) return;
@@ -36,7 +36,7 @@ void judge_coefficients(const std::vector<float>& allowed, std::span<const Rgb> 
             continue;
         }
         result.bound = std::max(result.bound, allowed[p] / largest);
-        // Floats round once more as values are put together.
+        // Values are rounded to float once more when they are put together.
         if (error > 0) result.bound_used = std::max(result.bound_used, error / (allowed[p] + 1e-6 * std::abs(value)));
     }
 }
@@ -44,20 +44,20 @@ void judge_coefficients(const std::vector<float>& allowed, std::span<const Rgb> 
 }  // namespace
 
 std::vector<StorageErrors> storage_errors(const Codec& codec, std::span<const Rgb> c,
-                                          std::span<const Storage* const> storages, SampleView judged,
+                                          std::span<const Storage* const> storages, SampleView measured,
                                           ColourView reference) {
     const CoefficientTraits traits = coefficient_traits(*codec.encoder());
-    const std::span weights{judged.solid_angles(), judged.size};
+    const std::span weights{measured.solid_angles(), measured.size};
     std::vector<StorageErrors> results;
-    Colours values(judged.size);
+    Colours values(measured.size);
     for (const Storage* storage : storages) {
         if (!suits(*storage, traits)) continue;
         StorageErrors result{.storage = std::string(storage->name), .bytes = bytes_per_texel(storage->layout(traits))};
         const auto read = stored_and_read(*storage, traits, c);
-        judge_coefficients(allowed_errors(*storage, traits, c), c, read, result);
-        codec.radiance(read, judged.directions(), values);
-        result.radiance_rms = errors(values, judged.radiance(), weights).rms;
-        codec.irradiance(read, judged.directions(), values);
+        measure_coefficients(allowed_errors(*storage, traits, c), c, read, result);
+        codec.radiance(read, measured.directions(), values);
+        result.radiance_rms = errors(values, measured.radiance(), weights).rms;
+        codec.irradiance(read, measured.directions(), values);
         scale(values, k_over_pi);
         result.irradiance_over_pi_rms = errors(values, reference, weights).rms;
         results.push_back(std::move(result));

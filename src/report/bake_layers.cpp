@@ -1,4 +1,4 @@
-// A bake's pages as pictures for its HTML page.
+// Reduces lightmap pages to pictures.
 #include "report/bake_layers.h"
 
 #include <fmt/format.h>
@@ -117,7 +117,7 @@ void add_irradiance(LayerWriter& writer, const BakeReport& bake, std::size_t fac
     writer.add<Rgb>({{"name", "E"},
                      {"title", "Irradiance"},
                      {"symbol", "E"},
-                     {"note", "at the shading normal, as the paths gave it"},
+                     {"note", "at the shading normal, from the path tracer"},
                      {"unit", "W/m²"},
                      {"group", group},
                      {"kind", "light"},
@@ -128,7 +128,7 @@ void add_irradiance(LayerWriter& writer, const BakeReport& bake, std::size_t fac
     writer.add<Rgb>({{"name", "E codec"},
                      {"title", "Irradiance by the codec"},
                      {"symbol", "E codec"},
-                     {"note", "as its coefficients give it there"},
+                     {"note", "at the shading normal, from the coefficients"},
                      {"unit", "W/m²"},
                      {"group", group},
                      {"kind", "light"},
@@ -152,7 +152,7 @@ void add_quality(LayerWriter& writer, const BakeReport& bake, std::size_t factor
     writer.add<float>({{"name", "error"},
                        {"title", "Standard error of E"},
                        {"symbol", "Std. error"},
-                       {"note", "over E, as the page holds it"},
+                       {"note", "over E, as the lightmap holds it"},
                        {"group", group},
                        {"kind", "error"},
                        {"scale", 0.2}},
@@ -163,7 +163,7 @@ void add_quality(LayerWriter& writer, const BakeReport& bake, std::size_t factor
                       });
     writer.add<float>({{"name", "validity"},
                        {"title", "Validity"},
-                       {"note", "share of paths that met no back first"},
+                       {"note", "share of paths that do not hit a back face first"},
                        {"group", group},
                        {"kind", "share"}},
                       factor, [&](std::size_t p, std::size_t i) { return pages[p].validity[i]; });

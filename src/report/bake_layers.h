@@ -1,15 +1,15 @@
-// A bake's pages as pictures for its HTML page: one layer for each thing that a texel holds, reduced where pages are
-// large.
+// The lightmap pages of a bake as pictures for its report: one layer for each quantity of a texel; large pages are
+// reduced.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "report/bake_page.h"
+#include "report/bake_report.h"
 #include "report/picture.h"
 
 namespace lobelia {
 
-/// What the page's script calls layers, and their pictures, each named "<layer> <page>".
+/// Layers as the report's scripts take them, and their pictures, each named "<layer> <page>".
 struct BakeLayers {
     std::vector<nlohmann::json> layers;
     std::map<std::string, Picture> pictures;

@@ -1,11 +1,11 @@
-// What preflight found, for the page of a bake.
+// Results of preflight, for the report of a bake.
 #include <fmt/format.h>
 
 #include <cmath>
 
 #include "bake/preflight/preflight.h"
 #include "io/counted.h"
-#include "report/bake_page.h"
+#include "report/bake_report.h"
 
 namespace lobelia {
 namespace {
@@ -30,35 +30,35 @@ Image as_linear_values(const Image8& picture) {
 
 }  // namespace
 
-void add_preflight(BakeReport& page, const Preflight& preflight, const Scene& scene) {
+void add_preflight(BakeReport& report, const Preflight& preflight, const Scene& scene) {
     using Level = PreflightCheck::Level;
     const auto sentences = warnings(preflight, scene);
-    for (const std::string& sentence : sentences) page.checks.push_back(check_of(sentence));
-    if (sentences.empty()) page.checks.push_back({Level::good, "Lightmap UVs", "nothing to mend"});
+    for (const std::string& sentence : sentences) report.checks.push_back(check_of(sentence));
+    if (sentences.empty()) report.checks.push_back({Level::good, "Lightmap UVs", "no problems"});
 
     const double texels = static_cast<double>(preflight.width * preflight.height * preflight.pages.size());
-    page.checks.push_back(
+    report.checks.push_back(
         {Level::note, "Charts",
-         fmt::format("{} on {} page{}, which they cover to {:.1f} %", preflight.charts, preflight.pages.size(),
+         fmt::format("{} on {} page{}, covering {:.1f} % of the texels", preflight.charts, preflight.pages.size(),
                      preflight.pages.size() == 1 ? "" : "s", 100 * static_cast<double>(preflight.texels) / texels)});
     const BakeMemory& memory = preflight.memory;
-    page.checks.push_back(
+    report.checks.push_back(
         {Level::note, "Memory",
          fmt::format("{}: states {}, pages {}, finishing {}", mebibytes(memory.total()), mebibytes(memory.states),
                      mebibytes(memory.pages), mebibytes(memory.finishing))});
     if (!preflight.density.share.empty())
-        page.checks.push_back({Level::note, "Density",
-                               fmt::format("{:.3g} to {:.3g} texels per metre, median {:.3g}", preflight.density.least,
-                                           preflight.density.most, preflight.density.median)});
+        report.checks.push_back(
+            {Level::note, "Density",
+             fmt::format("{:.3g} to {:.3g} texels per metre, median {:.3g}", preflight.density.least,
+                         preflight.density.most, preflight.density.median)});
     for (std::size_t i = 0; i < preflight.density.share.size(); ++i)
-        page.density.emplace_back(preflight.density.first * std::exp2(static_cast<double>(i) / 2),
-                                  preflight.density.share[i]);
+        report.density.emplace_back(preflight.density.first * std::exp2(static_cast<double>(i) / 2),
+                                    preflight.density.share[i]);
 
     constexpr std::size_t k_most_side = 768;
     for (std::size_t p = 0; p < preflight.pages.size(); ++p)
-        page.preflight_pictures.push_back(
-            {fmt::format("Page {}: charts, orange where too close, red where they overlap", p),
-             as_linear_values(preflight_picture(preflight, p, k_most_side))});
+        report.preflight_pictures.push_back({fmt::format("Page {}: charts; orange: too close; red: overlapping", p),
+                                             as_linear_values(preflight_picture(preflight, p, k_most_side))});
 }
 
 }  // namespace lobelia

@@ -11,7 +11,7 @@ namespace {
 
 constexpr float k_white_reflects = static_cast<float>(1 / k_pi);
 
-/// Where a probe belongs, and how much room it has for itself.
+/// The place of a probe in the grid, and its distance to the next.
 struct Place {
     Vec3 position;
     float spacing = std::numeric_limits<float>::max();
@@ -114,7 +114,7 @@ class Planner {
                 normals.push_back({u, std::sqrt(up), v});
             }
 
-        // Read its irradiance there.
+        // Evaluate its irradiance there.
         Directions directions(pixels.size());
         Colours irradiance(pixels.size());
         for (std::size_t k = 0; k < pixels.size(); ++k) set_entry(directions.view(), k, normals[k]);

@@ -1,4 +1,4 @@
-// Probes as small spheres, lit by what they hold: one plan for each height at which there are any.
+// Probes as small spheres lit by their coefficients: one plan for each height.
 #pragma once
 
 #include <string>
@@ -17,20 +17,20 @@ struct ProbePlan {
     double height = 0;  ///< y [m]
     std::size_t count = 0;
     Image image;
-    std::vector<std::uint16_t> marks;  ///< what each pixel belongs to, a Mark
+    std::vector<std::uint16_t> marks;  ///< a Mark for each pixel
 };
 
-/// What the page shows of a set of probes.
+/// A set of probes as the report shows it.
 struct ProbeView {
     std::string codec;
-    std::size_t count = 0, invalid = 0;  ///< in all; of them, those of a validity below one half
-    std::size_t heights = 0;             ///< in all, of which there are plans of some
+    std::size_t count = 0, invalid = 0;  ///< in all; those with a validity below one half
+    std::size_t heights = 0;             ///< in all; some of them have plans
     std::vector<ProbePlan> plans;        ///< from the lowest up
 };
 
 struct ProbeViewOptions {
     std::size_t most_side = 256;  ///< of a plan [pixels]
-    std::size_t most_plans = 12;  ///< of more heights these many are taken, evenly
+    std::size_t most_plans = 12;  ///< if there are more heights, these many are chosen evenly
 };
 
 /// Probes stand where the grid or the cells have them, though they may have been pushed out from there.

@@ -30,7 +30,7 @@ std::string base64(std::string_view bytes) {
         };
         write_base64(byte(0) << 16 | byte(1) << 8 | byte(2), text.data() + i / 3 * 4);
     }
-    // What stands for missing bytes is padding.
+    // Replace the characters of missing bytes by padding.
     const std::size_t missing = (3 - bytes.size() % 3) % 3;
     std::fill_n(text.rbegin(), missing, '=');
     return text;

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "report/base64.h"
-#include "report/page.h"
+#include "report/page_template.h"
 
 namespace lobelia {
 namespace {

@@ -14,7 +14,10 @@ bool finite(Vec3 v) { return finite(v.x) && finite(v.y) && finite(v.z); }
 bool finite(const Transform& t) {
     return finite(t.rows[0]) && finite(t.rows[1]) && finite(t.rows[2]) && finite(t.translation);
 }
-bool is_radiance(Rgb c) { return finite(c.r) && finite(c.g) && finite(c.b) && c.r >= 0 && c.g >= 0 && c.b >= 0; }
+bool is_positive(Rgb c) { return finite(c.r) && finite(c.g) && finite(c.b) && c.r >= 0 && c.g >= 0 && c.b >= 0; }
+/// Beyond this limit, that of the texels of environments, sums of several and their squares overflow.
+constexpr float k_most_light = 1e15f;
+bool is_light(Rgb c) { return is_positive(c) && c.r <= k_most_light && c.g <= k_most_light && c.b <= k_most_light; }
 bool in_unit(float x) { return x >= 0 && x <= 1; }
 bool in_unit(const std::array<float, 4>& c) { return in_unit(c[0]) && in_unit(c[1]) && in_unit(c[2]) && in_unit(c[3]); }
 bool is_reflectance(Rgb c) { return in_unit(c.r) && in_unit(c.g) && in_unit(c.b); }
@@ -81,8 +84,8 @@ Status check_material(const Scene& scene, const Material& m, const std::string& 
     if (!is_reflectance(m.base_color) || !in_unit(m.alpha) || !in_unit(m.metallic) || !in_unit(m.roughness) ||
         !in_unit(m.specular))
         return wrong("a factor is not in [0, 1]", "{}", place);
-    if (!is_radiance(m.emission)) return wrong("not a radiance", "{}.emission", place);
-    if (!is_radiance(m.specular_color)) return wrong("negative or not finite", "{}.specular_color", place);
+    if (!is_light(m.emission)) return wrong("negative or above 1e15", "{}.emission", place);
+    if (!is_positive(m.specular_color)) return wrong("negative or not finite", "{}.specular_color", place);
     if (!finite(m.alpha_cutoff) || m.alpha_cutoff < 0) return wrong("negative or not finite", "{}.alpha_cutoff", place);
     if (!finite(m.ior) || (m.ior < 1 && m.ior != 0)) return wrong("neither 0 nor at least 1", "{}.ior", place);
     if (auto s = check_use(scene, m.base_color_texture, place + ".base_color_texture"); !s) return s;
@@ -91,13 +94,13 @@ Status check_material(const Scene& scene, const Material& m, const std::string& 
 }
 
 Status check_light(const PunctualLight& light, const std::string& place) {
-    if (!is_radiance(light.intensity)) return wrong("negative or not finite", "{}.intensity", place);
+    if (!is_light(light.intensity)) return wrong("negative or above 1e15", "{}.intensity", place);
     if (!finite(light.position)) return wrong("not finite", "{}.position", place);
     if (light.kind != PunctualLight::Kind::point && !is_unit(light.direction))
         return wrong("not of length 1", "{}.direction", place);
-    if (light.kind == PunctualLight::Kind::spot &&
-        !(light.inner_angle >= 0 && light.inner_angle < light.outer_angle && light.outer_angle <= 1.5708f))
-        return wrong("0 <= inner_angle < outer_angle <= pi / 2 does not hold", "{}", place);
+    if (light.kind == PunctualLight::Kind::spot && !(light.inner_angle >= 0 && light.inner_angle <= light.outer_angle &&
+                                                     light.outer_angle > 0 && light.outer_angle <= 1.5708f))
+        return wrong("0 <= inner_angle <= outer_angle, 0 < outer_angle <= pi / 2 does not hold", "{}", place);
     if (!(light.angular_radius >= 0 && light.angular_radius < 1.5708f))
         return wrong("not in [0, pi / 2)", "{}.angular_radius", place);
     if (!finite(light.range) || light.range < 0) return wrong("negative or not finite", "{}.range", place);
@@ -124,7 +127,7 @@ Status check_rest(const Scene& scene) {
     if (!scene.environment) return Done{};
     const Image& image = *scene.environment;
     if (image.width == 0 || image.height == 0) return wrong("no texels", "environment");
-    return check_array(std::span<const Rgb>(image.pixels), image.width * image.height, "environment", is_radiance);
+    return check_array(std::span<const Rgb>(image.pixels), image.width * image.height, "environment", is_light);
 }
 
 }  // namespace

@@ -19,18 +19,35 @@ void add_ground(SceneBuilder& builder, const Materials& m) {
     for (const auto& [low, high] :
          {std::pair{Vec3{-16, 0, 14.2f}, Vec3{16, 2.4f, 15}}, std::pair{Vec3{-16, 0, -5}, Vec3{-15.2f, 2.4f, 14.2f}},
           std::pair{Vec3{15.2f, 0, -5}, Vec3{16, 2.4f, 14.2f}}})
-        builder.box(low, high, faces(k_face_sides | k_face_top, m.leaves, 0.2f));
+        add_solid(builder, low, high, k_face_sides | k_face_top, m.leaves, 0.2f);
     builder.begin_object("steps");
-    builder.box({-k_end, 0, 0.95f}, {k_end, 0.15f, 1.3f},
-                faces(k_face_top | k_face_front | k_face_left | k_face_right, m.stone));
-    builder.box({-k_end, 0, k_edge}, {k_end, 0.3f, 0.95f},
-                faces(k_face_top | k_face_front | k_face_left | k_face_right, m.stone));
-    builder.box({-k_end, 0, k_back}, {k_end, k_floor, k_edge},
+    constexpr unsigned k_step = k_face_top | k_face_front | k_face_left | k_face_right;
+    add_solid(builder, {-k_end, 0, 0.95f}, {k_end, 0.15f, 1.3f}, k_step, m.stone);
+    add_solid(builder, {-k_end, 0, k_edge}, {k_end, 0.3f, 0.95f}, k_step, m.stone);
+    // The floor is the top of the third; walls stand beside it behind the arcade.
+    builder.box({-k_end, 0, k_half_wall}, {k_end, k_floor, k_edge},
                 faces(k_face_front | k_face_left | k_face_right, m.stone));
+    builder.box({-k_end, 0, k_back}, {k_end, k_floor, k_half_wall},
+                faces(k_face_left | k_face_right, m.stone, k_hidden));
+    builder.box({-k_end, 0, k_back}, {k_end, k_floor, k_edge}, faces(k_face_back | k_face_bottom, m.stone, k_hidden));
     builder.begin_object("floor");
     builder.quad({-k_end, k_floor, k_edge}, {2 * k_end, 0, 0}, {0, 0, k_back - k_edge}, surface(m.tiles));
     // A texture of four tiles over 2 m.
     for (Vec2& uv : builder.scene().meshes.back().uv[0]) uv = uv * 0.5f;
+}
+
+/// Closes the walls, one solid, where they touch ground, steps and roof.
+void close_walls(SceneBuilder& builder, const Materials& m) {
+    constexpr float x = k_end, outer_x = k_end + k_thickness, outer_z = k_back - k_thickness;
+    for (const auto& [low, high] : {std::pair{Vec3{-outer_x, 0, outer_z}, Vec3{outer_x, k_ceiling, k_back}},
+                                    std::pair{Vec3{-outer_x, 0, k_back}, Vec3{-x, k_ceiling, k_half_wall}},
+                                    std::pair{Vec3{x, 0, k_back}, Vec3{outer_x, k_ceiling, k_half_wall}}})
+        builder.box(low, high, faces(k_face_top | k_face_bottom, m.plaster, k_hidden));
+    // Just below the floor, or its edges would have three faces.
+    constexpr float k_low = k_floor - 1e-3f;
+    builder.box({-x, 0, outer_z}, {x, k_low, k_back}, faces(k_face_front, m.plaster, k_hidden));
+    builder.box({-outer_x, 0, k_back}, {-x, k_low, k_half_wall}, faces(k_face_right, m.plaster, k_hidden));
+    builder.box({x, 0, k_back}, {outer_x, k_low, k_half_wall}, faces(k_face_left, m.plaster, k_hidden));
 }
 
 /// Back and end walls: plaster above a painted dado within, plain and coarse without.
@@ -46,14 +63,14 @@ void add_walls(SceneBuilder& builder, const Materials& m) {
     builder.box({-outer_x, 0, outer_z}, {outer_x, k_ceiling, k_back},
                 faces(k_face_back | k_face_left | k_face_right, m.plaster, k_outside));
     // A ledge over the dado's edge, and a bench before it.
-    builder.box({-x, k_dado - 0.02f, k_back}, {x, k_dado + 0.1f, k_back + 0.06f},
-                faces(k_face_top | k_face_bottom | k_face_front, m.stone));
+    add_solid(builder, {-x, k_dado - 0.02f, k_back}, {x, k_dado + 0.1f, k_back + 0.06f},
+              k_face_top | k_face_bottom | k_face_front, m.stone);
     builder.begin_object("bench");
-    builder.box({-3, k_floor + 0.38f, k_back}, {3, k_floor + 0.46f, k_back + 0.5f},
-                faces(k_face_all & ~unsigned{k_face_back}, m.stone));
+    add_solid(builder, {-3, k_floor + 0.38f, k_back}, {3, k_floor + 0.46f, k_back + 0.5f},
+              k_face_all & ~unsigned{k_face_back}, m.stone);
     for (const float foot : {-2.6f, 0.0f, 2.6f})
-        builder.box({foot - 0.12f, k_floor, k_back}, {foot + 0.12f, k_floor + 0.38f, k_back + 0.42f},
-                    faces(k_face_left | k_face_right | k_face_front, m.stone));
+        add_solid(builder, {foot - 0.12f, k_floor, k_back}, {foot + 0.12f, k_floor + 0.38f, k_back + 0.42f},
+                  k_face_left | k_face_right | k_face_front, m.stone);
     builder.begin_object("left wall");
     inner_face({-x, k_floor, k_half_wall}, {0, 0, k_back - k_half_wall});
     builder.box({-outer_x, 0, k_back}, {-x, k_ceiling, k_half_wall},
@@ -62,6 +79,7 @@ void add_walls(SceneBuilder& builder, const Materials& m) {
     inner_face({x, k_floor, k_back}, {0, 0, k_half_wall - k_back});
     builder.box({x, 0, k_back}, {outer_x, k_ceiling, k_half_wall},
                 faces(k_face_right | k_face_front, m.plaster, k_outside));
+    close_walls(builder, m);
 }
 
 /// The wall above the columns: stops along x with the height of its lower edge, from left to right.
@@ -108,6 +126,15 @@ void add_arcade(SceneBuilder& builder, const Materials& m) {
         });
     }
 
+    // Close it at its ends, under the roof, and over the columns.
+    builder.box({-k_end, k_spring, -k_half_wall}, {k_end, k_ceiling, k_half_wall},
+                faces(k_face_left | k_face_right | k_face_top, m.plaster, k_hidden));
+    for (int column = 0; column <= k_bays; ++column) {
+        const float centre = -k_half_length + k_bay * static_cast<float>(column), half = 0.5f * k_bay - k_arch_radius;
+        builder.box({centre - half, k_spring, -k_half_wall}, {centre + half, k_ceiling, k_half_wall},
+                    faces(k_face_bottom, m.plaster, k_hidden));
+    }
+
     // The arches from below.
     PatchOptions soffit = surface(m.stone);
     soffit.columns = k_arch_segments;
@@ -133,8 +160,8 @@ void add_roof(SceneBuilder& builder, const Materials& m) {
     builder.begin_object("beams");
     for (int i = 0; i <= 2 * k_bays; ++i) {
         const float centre = -k_half_length + 0.5f * k_bay * static_cast<float>(i);
-        builder.box({centre - 0.1f, k_ceiling - 0.24f, k_back}, {centre + 0.1f, k_ceiling, -k_half_wall},
-                    faces(k_face_left | k_face_right | k_face_bottom, m.timber, 0.8f));
+        add_solid(builder, {centre - 0.1f, k_ceiling - 0.24f, k_back}, {centre + 0.1f, k_ceiling, -k_half_wall},
+                  k_face_left | k_face_right | k_face_bottom, m.timber, 0.8f);
     }
 }
 

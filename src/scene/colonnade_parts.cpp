@@ -1,4 +1,4 @@
-// What the colonnade is made of.
+// The parts of the colonnade.
 #include "scene/colonnade_parts.h"
 
 #include <algorithm>
@@ -37,19 +37,34 @@ PatchOptions surface(std::uint32_t material, float density) {
     return options;
 }
 
+void add_solid(SceneBuilder& builder, Vec3 lowest, Vec3 highest, unsigned visible, std::uint32_t material,
+               float density) {
+    builder.box(lowest, highest, faces(visible, material, density));
+    builder.box(lowest, highest, faces(k_face_all & ~visible, material, k_hidden));
+}
+
 /// A column with a square plinth, a round base, a shaft that swells a little, and a capital.
 void add_column(SceneBuilder& builder, const Materials& m, float x, int number) {
     constexpr float k_base = 0.14f, k_shaft = 0.36f, k_neck = 2.42f, k_abacus = 2.68f, k_top_of = 2.8f, k_half = 0.35f;
     builder.begin_object("column " + std::to_string(number));
-    const auto slab = [&](float low, float high, unsigned which) {
-        builder.box({x - k_half, k_floor + low, -k_half}, {x + k_half, k_floor + high, k_half}, faces(which, m.stone));
+    const auto slab = [&](float low, float high, unsigned visible) {
+        add_solid(builder, {x - k_half, k_floor + low, -k_half}, {x + k_half, k_floor + high, k_half}, visible,
+                  m.stone);
     };
     slab(0, k_base, k_face_sides | k_face_top);
     slab(k_abacus, k_top_of, k_face_all);
 
     const Vec3 foot{x, k_floor, 0};
+    // Discs that touch the slabs close the column; a radius of 0 would make triangles without area.
+    constexpr float k_pin = 0.001f, k_base_radius = 0.27f, k_shaft_radius = 0.26f, k_capital_radius = 0.335f;
+    const auto lid = [&](ProfilePoint from, ProfilePoint to) {
+        builder.lathe(foot, std::array{from, to}, k_column_segments, surface(m.stone, k_hidden));
+    };
+    lid({k_pin, k_base, {0, -1}}, {k_base_radius, k_base, {0, -1}});
+    lid({k_capital_radius, k_abacus, {0, 1}}, {k_pin, k_abacus, {0, 1}});
+    lid({k_base_radius, k_shaft, {0, 1}}, {k_shaft_radius, k_shaft, {0, 1}});
     std::vector<ProfilePoint> profile;
-    add_bulge(profile, 0.27f, 0.06f, k_base, k_shaft);
+    add_bulge(profile, k_base_radius, 0.06f, k_base, k_shaft);
     builder.lathe(foot, profile, k_column_segments, surface(m.stone));
     profile.clear();
     for (int i = 0; i <= 4; ++i) {

@@ -1,4 +1,7 @@
-// What the colonnade is made of: its measures, its materials, and the things that stand in it.
+// The parts of the colonnade: its measures, its materials, and the things that stand in it.
+//
+// Everything is closed, and nothing reaches into anything else: a point under another part sees only backs, so that the
+// baker knows it to be hidden.
 #pragma once
 
 #include "scene/scene_builder.h"
@@ -28,6 +31,12 @@ struct Materials {
 /// Options of a box and of a patch; density is that of the lightmap, relative to others.
 [[nodiscard]] BoxOptions faces(unsigned which, std::uint32_t material, float density = 1);
 [[nodiscard]] PatchOptions surface(std::uint32_t material, float density = 1);
+
+/// A box whose `visible` faces have this density; the others, which touch something, only close it.
+void add_solid(SceneBuilder& builder, Vec3 lowest, Vec3 highest, unsigned visible, std::uint32_t material,
+               float density = 1);
+/// The density of faces that nobody sees.
+inline constexpr float k_hidden = 0.02f;
 
 /// Cloth that hangs from a rod between two columns, gathered at the top.
 struct Curtain {

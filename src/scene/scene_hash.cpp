@@ -71,7 +71,11 @@ void add(Hash& hash, const Transform& t) {
     for (const Vec3& row : t.rows) add(hash, row);
     add(hash, t.translation);
 }
-void add(Hash& hash, const Texture& t) { add_all(hash, t.name, t.width, t.height, t.texels, t.wrap_u, t.wrap_v); }
+void add(Hash& hash, const Texture& t) {
+    add_all(hash, t.name, t.width, t.height, t.texels, t.wrap_u, t.wrap_v);
+    // Fields of a later date count only where they are set: hashes of older scenes stay.
+    if (t.filter != Texture::Filter::linear) add(hash, t.filter);
+}
 void add(Hash& hash, const TextureUse& use) {
     add_all(hash, use.texture, use.uv_set);
     for (const auto& row : use.uv_from_mesh)
@@ -110,6 +114,8 @@ std::uint64_t scene_hash(const Scene& scene) {
     Hash hash;
     add_all(hash, scene.name, scene.meshes, scene.objects, scene.materials, scene.textures, scene.lights, scene.cameras,
             scene.environment);
+    if (scene.origin != Scene{}.origin)
+        for (const double x : scene.origin) hash.word(std::bit_cast<std::uint64_t>(x));
     return hash.value();
 }
 

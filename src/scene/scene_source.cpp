@@ -9,9 +9,9 @@
 #include <thread>
 
 #include "io/read_image.h"
+#include "lobelia/gltf.h"
 #include "scene/check_scene.h"
 #include "scene/embedded.h"
-#include "scene/gltf_read.h"
 #include "scene/sky_light.h"
 
 namespace lobelia {
@@ -23,7 +23,7 @@ Result<LoadedScene> read_or_make(const SceneSource& source) {
     const auto names = embedded_scene_names();
     auto scene = embedded_scene(source.path);
     if (scene && !std::filesystem::is_regular_file(source.path, code)) {
-        return LoadedScene{*std::move(scene), {}};
+        return LoadedScene{*std::move(scene), {}, {}};
     }
     if (std::filesystem::exists(source.path, code)) {
         GltfReadOptions read;

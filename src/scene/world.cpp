@@ -7,15 +7,6 @@
 namespace lobelia {
 namespace {
 
-float determinant(const Transform& t) { return dot(t.rows[0], cross(t.rows[1], t.rows[2])); }
-
-/// Normals are turned by the matrix of cofactors: the inverse transpose times the determinant, which always exists.
-Vec3 transform_normal(const Transform& t, Vec3 n) {
-    const Vec3 turned{dot(cross(t.rows[1], t.rows[2]), n), dot(cross(t.rows[2], t.rows[0]), n),
-                      dot(cross(t.rows[0], t.rows[1]), n)};
-    return determinant(t) < 0 ? turned * -1.0f : turned;
-}
-
 /// `v` scaled to length 1, or `otherwise` where it has none.
 Vec3 unit_or(Vec3 v, Vec3 otherwise) {
     const float l = length(v);
@@ -23,6 +14,15 @@ Vec3 unit_or(Vec3 v, Vec3 otherwise) {
 }
 
 }  // namespace
+
+float determinant(const Transform& t) { return dot(t.rows[0], cross(t.rows[1], t.rows[2])); }
+
+Vec3 transform_normal(const Transform& t, Vec3 n) {
+    // The matrix of cofactors: the inverse transpose times the determinant, which always exists.
+    const Vec3 turned{dot(cross(t.rows[1], t.rows[2]), n), dot(cross(t.rows[2], t.rows[0]), n),
+                      dot(cross(t.rows[0], t.rows[1]), n)};
+    return determinant(t) < 0 ? turned * -1.0f : turned;
+}
 
 Vec3 World::face_normal(std::size_t t) const {
     const auto& [a, b, c] = triangles[t];

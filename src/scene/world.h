@@ -5,6 +5,11 @@
 
 namespace lobelia {
 
+/// Negative for transforms that mirror.
+[[nodiscard]] float determinant(const Transform& t);
+/// The direction of a surface's normal after the surface is moved; not of unit length.
+[[nodiscard]] Vec3 transform_normal(const Transform& t, Vec3 n);
+
 /// Vertex arrays are parallel; triangle arrays are parallel. Objects keep the scene's order, their triangles lie
 /// together.
 struct World {

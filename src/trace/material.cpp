@@ -3,11 +3,15 @@
 
 #include <cmath>
 
+#include "core/sample/ggx_fast.h"
 #include "lobelia/planes.h"
-#include "trace/directions.h"
 
 namespace lobelia {
 namespace {
+
+using ggx::fast::distribution;
+using ggx::fast::lambda;
+using ggx::fast::visible_normal;
 
 constexpr auto k_pi_f = static_cast<float>(k_pi);
 /// Smoother than this counts as this: a mirror's highlight must have a width for light to be aimed into it.
@@ -23,34 +27,10 @@ Rgb layer_fresnel(const Reflectance& s, float cosine) {
     const float k = schlick(cosine);
     return s.layer_0 * (1 - k) + Rgb{k, k, k} * s.layer_90;
 }
-/// What is left for the base.
+/// Fraction of light that the layer transmits to the base.
 float left(const Reflectance& s, float cosine) {
     const float k = schlick(cosine);
     return 1 - (s.taken_0 * (1 - k) + s.taken_90 * k);
-}
-
-/// GGX's distribution of normals; from the sine, so that it keeps its digits for narrow lobes.
-float distribution(float width, Vec3 h) {
-    const float w2 = width * width, d = w2 * h.z * h.z + h.x * h.x + h.y * h.y;
-    return w2 / (k_pi_f * d * d);
-}
-/// Smith's Lambda of a direction.
-float lambda(float width, Vec3 v) {
-    const float tan2 = (v.x * v.x + v.y * v.y) / (v.z * v.z);
-    return 0.5f * (std::sqrt(1 + width * width * tan2) - 1);
-}
-
-/// A normal visible from wo (Heitz 2018): stretch, sample the projected hemisphere, unstretch.
-Vec3 visible_normal(float width, Vec3 wo, Pair point) {
-    const Vec3 stretched = normalize(Vec3{width * wo.x, width * wo.y, wo.z});
-    const float flat = stretched.x * stretched.x + stretched.y * stretched.y;
-    const Vec3 t1 = flat > 0 ? Vec3{-stretched.y, stretched.x, 0} * (1 / std::sqrt(flat)) : Vec3{1, 0, 0};
-    const Vec3 t2 = cross(stretched, t1);
-    const float r = std::sqrt(point.a), s = 0.5f * (1 + stretched.z);
-    const auto [c, sn] = cos_sin_turns(point.b);
-    const float p1 = r * c, p2 = (1 - s) * std::sqrt(std::max(0.0f, 1 - p1 * p1)) + s * r * sn;
-    const Vec3 h = t1 * p1 + t2 * p2 + stretched * std::sqrt(std::max(0.0f, 1 - p1 * p1 - p2 * p2));
-    return normalize(Vec3{width * h.x, width * h.y, std::max(1e-6f, h.z)});
 }
 
 /// Probability of choosing the layer: its share of the light at this angle, never less than a tenth of either.

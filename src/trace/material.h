@@ -5,9 +5,9 @@
 
 #include <algorithm>
 
+#include "core/sample/sequence.h"
 #include "lobelia/math.h"
 #include "lobelia/scene.h"
-#include "trace/sequence.h"
 
 namespace lobelia {
 

@@ -2,6 +2,7 @@
 #include "trace/texture.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/math/colour.h"
 
@@ -32,12 +33,12 @@ std::size_t wrapped(std::int64_t i, std::int64_t n, Texture::Wrap wrap) {
     return 0;
 }
 
-/// The two texels on both sides of a coordinate, and how far it is from the first to the second.
+/// The texels on both sides of a coordinate, and its distance from the first [texels]; unfiltered, the texel around it.
 struct Neighbours {
     std::size_t first, second;
     float share;
 };
-Neighbours neighbours(float coordinate, std::size_t size, Texture::Wrap wrap) {
+Neighbours neighbours(float coordinate, std::size_t size, Texture::Wrap wrap, Texture::Filter filter) {
     // Beyond this no fraction is left in a float; it also keeps the whole number in range.
     constexpr float most = 0x1p24f;
     const float bounded = std::isfinite(coordinate) ? std::clamp(coordinate, -most, most) : 0;
@@ -45,6 +46,10 @@ Neighbours neighbours(float coordinate, std::size_t size, Texture::Wrap wrap) {
     auto i = static_cast<std::int64_t>(at);
     if (static_cast<double>(i) > at) --i;
     const auto n = static_cast<std::int64_t>(size);
+    if (filter == Texture::Filter::nearest) {
+        const std::size_t texel = wrapped(static_cast<std::int64_t>(std::floor(at + 0.5)), n, wrap);
+        return {texel, texel, 0};
+    }
     return {wrapped(i, n, wrap), wrapped(i + 1, n, wrap), static_cast<float>(at - static_cast<double>(i))};
 }
 
@@ -54,8 +59,8 @@ std::array<float, 4> texture_value(const Texture& texture, Vec2 uv, Curve curve)
     static const std::array tables = {make_table(Curve::linear), make_table(Curve::srgb)};
     const auto& linear = tables[0];
     const auto& colour = tables[curve == Curve::srgb ? 1 : 0];
-    const auto [x0, x1, fx] = neighbours(uv.x, texture.width, texture.wrap_u);
-    const auto [y0, y1, fy] = neighbours(uv.y, texture.height, texture.wrap_v);
+    const auto [x0, x1, fx] = neighbours(uv.x, texture.width, texture.wrap_u, texture.filter);
+    const auto [y0, y1, fy] = neighbours(uv.y, texture.height, texture.wrap_v, texture.filter);
 
     std::array<float, 4> sum{};
     const auto add = [&](std::size_t x, std::size_t y, float weight) {

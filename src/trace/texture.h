@@ -1,4 +1,4 @@
-// Textures as surfaces read them: wrapped, filtered bilinearly, decoded by table.
+// Texture lookups: wrapped, filtered, decoded by table.
 #pragma once
 
 #include "lobelia/scene.h"

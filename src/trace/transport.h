@@ -1,7 +1,7 @@
 // The inside of the path tracer: geometry, surfaces, lights, and what happens to a path at each of them.
 #pragma once
 
-#include "trace/directions.h"
+#include "core/sample/directions.h"
 #include "trace/light/light.h"
 #include "trace/wave.h"
 

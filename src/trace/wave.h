@@ -4,10 +4,10 @@
 
 #include <vector>
 
+#include "core/sample/sequence.h"
 #include "lobelia/planes.h"
 #include "trace/path_tracer.h"
 #include "trace/rays.h"
-#include "trace/sequence.h"
 
 namespace lobelia {
 

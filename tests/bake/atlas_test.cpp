@@ -1,4 +1,4 @@
-// Layouts, charts and the map of texels, against exact clipping of every triangle with every texel.
+// Tests layouts, charts and the texel map against exact clipping of every triangle with every texel.
 #include "bake/place/atlas.h"
 
 #include <random>
@@ -23,8 +23,7 @@ Atlas atlas_of(const World& world, const AtlasOptions& options = {}) {
     return *std::move(atlas);
 }
 
-/// Area of a triangle's part in a box, in long double: the triangle's corners as a list, cut by one half plane after
-/// another.
+/// Area of a triangle clipped to a box, in long double: clips the list of corners by one half plane after another.
 double exact_cover(const std::array<Vec2, 3>& triangle, int x, int y) {
     using Point = std::array<long double, 2>;
     std::vector<Point> polygon;
@@ -82,7 +81,7 @@ TEST(TexelMap, EqualsExactClippingOfEveryTriangle) {
         const Atlas atlas = atlas_of(world, {.width = 70, .height = 45});
         const TexelMap map = map_texels(atlas);
 
-        // Every texel, by its definition.
+        // Compute every texel's owner by the definition.
         std::vector<std::uint32_t> expected(70 * 45, Atlas::k_no_chart);
         std::vector<double> cover(expected.size());
         for (std::size_t i = 0; i < expected.size(); ++i) {
@@ -161,7 +160,7 @@ TEST(TexelMap, RefusesUVsThatOverlapThousandsOfTimes) {
 }
 
 TEST(Charts, AreWhatSharesPositionAndUV) {
-    // Two triangles that meet in position and UV, a third that meets them in UV alone.
+    // Two triangles that share position and UV, and a third that shares only the UV.
     Mesh mesh = flat_triangles({{Vec2{0, 0}, {0.4f, 0}, {0, 0.4f}},
                                 {Vec2{0.4f, 0}, {0.4f, 0.4f}, {0, 0.4f}},
                                 {Vec2{0.4f, 0}, {0.8f, 0}, {0.4f, 0.4f}}});
@@ -180,7 +179,7 @@ TEST(Charts, DoNotJoinObjects) {
 
 TEST(Layouts, AreSharedUnlessObjectsOverlap) {
     const Mesh square = parallelogram({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
-    // Side by side they share a border at most; on top of each other they do not go together.
+    // Side by side, objects share at most a border; objects that overlap cannot share the UV square.
     const World apart = make_world(scene_of({with_uv(square, 0.5f, {0, 0}), with_uv(square, 0.5f, {0.5f, 0})}));
     const World same = make_world(scene_of({square, square}));
     EXPECT_EQ(atlas_of(apart).layout(), Layout::shared);
@@ -227,7 +226,7 @@ TEST(Layouts, KeepPackedObjectsApart) {
                 EXPECT_TRUE(intersection(a, near).empty()) << i << ' ' << j;
             }
         }
-        // Each triangle stays where its object may be.
+        // Check that each triangle stays within its object's rectangle.
         const TexelMap map = map_texels(atlas);
         for (std::size_t i = 0; i < map.texels.size(); ++i) {
             const AtlasPlacement& own = p[world.object[map.triangle[i]]];

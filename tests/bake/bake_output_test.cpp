@@ -1,4 +1,4 @@
-// What a bake leaves behind reads back as it was, and nothing else is taken for it.
+// Tests that a written bake reads back equal, and that damaged or foreign files are refused.
 #include <gtest/gtest.h>
 
 #include "bake/write/manifest.h"
@@ -53,7 +53,7 @@ TEST_F(BakeOutput, RoundTripOfManifest) {
         EXPECT_EQ(a.objects[i].name, b.objects[i].name);
         expect_equal(a.objects[i].placement, b.objects[i].placement);
     }
-    // All of the rest is in the text, which is written the same again.
+    // The text holds everything else, and writing it again gives the same text.
     EXPECT_EQ(to_json_text(b), test::contents(path() / "bake.json"));
     EXPECT_EQ(b.options.paths.seed, 0xfffffffeu);
     EXPECT_EQ(b.options.target_error, 0.125);
@@ -216,6 +216,72 @@ TEST_F(BakeOutput, TooManyChartsAreAnErrorAndNothingChanges) {
     EXPECT_EQ(test::contents(path() / "bake.json"), manifest);
     EXPECT_FALSE(write_bake(folder_.path() / "new", bad));
     EXPECT_EQ(folder_.entries(), 1u);
+}
+
+TEST(BakeFolder, LightBeyondHalfIsWrittenAsFloat) {
+    const test::TestFolder folder("bake-bright");
+    Bake bake = test::some_bake("sh1/moments/convolution");
+    bake.manifest.precision = Precision::half;
+    bake.pages[0].planes[2][1] = 1e6f;
+    const auto manifest = write_bake(folder.path(), bake);
+    ASSERT_TRUE(manifest) << manifest.error().message;
+    EXPECT_EQ(manifest->precision, Precision::full);
+    EXPECT_NE(manifest->warnings.back().find("1e+06 exceed the range of half"), std::string::npos);
+    const auto read = read_bake(folder.path());
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(read->pages[0].planes[2][1], 1e6f);
+    bake.pages[0].planes[2][1] = 65504;
+    EXPECT_EQ(write_bake(folder.path(), bake)->precision, Precision::half);
+}
+
+TEST(BakeFolder, NothingThatIsNotFiniteIsWritten) {
+    const test::TestFolder folder("bake-nan");
+    for (const float bad : {NAN, INFINITY}) {
+        Bake bake = test::some_bake("sh1/moments/convolution");
+        bake.pages[1].planes[3][22] = bad;
+        const auto written = write_bake(folder.path() / "new", bake);
+        ASSERT_FALSE(written);
+        EXPECT_NE(written.error().message.find("page 1, channel c1.R, x = 1, y = 1"), std::string::npos);
+        EXPECT_EQ(folder.entries(), 0u);
+        bake.pages[1].planes[3][22] = 0;
+        bake.probes->coefficients[3].g = bad;
+        EXPECT_FALSE(write_bake(folder.path() / "new", bake));
+        EXPECT_EQ(folder.entries(), 0u);
+    }
+}
+
+TEST(Manifest, NamesOfCodecsOpenNoFiles) {
+    const test::TestFolder folder("bake-hostile");
+    test::overwrite(folder.path() / "lobes.txt", "0 0 1 2\n1 0 0 2\n");
+    for (const std::string file : {(folder.path() / "lobes.txt").string(), std::string("/dev/zero")})
+        for (const std::string prefix : {"sg:", "sgh:"}) {
+            Bake bake = test::some_bake("sh1/moments/convolution");
+            std::string text = to_json_text(bake.manifest);
+            const std::string name = "sh1/moments/convolution";
+            text.replace(text.find(name), name.size(), prefix + file + "/moments/exact");
+            const auto manifest = manifest_from_json(text, "bake.json");
+            ASSERT_FALSE(manifest);
+            EXPECT_NE(manifest.error().message.find("codec.name"), std::string::npos) << manifest.error().message;
+            bake.probes->codec = prefix + file + "/moments/exact";
+            EXPECT_FALSE(probes_from_json(to_json_text(*bake.probes, "probes.bin"), "probes.json"));
+        }
+}
+
+TEST(Manifest, NoSceneIsReadByANameThatIsAFile) {
+    const test::TestFolder folder("bake-scene-name");
+    Manifest manifest = test::some_bake("sh1/moments/convolution").manifest;
+    test::overwrite(folder.path() / "scene.glb", "anything");
+    manifest.scene_name = (folder.path() / "scene.glb").string();
+    const auto scene = read_baked_scene(folder.path(), manifest);
+    ASSERT_FALSE(scene);
+    EXPECT_NE(scene.error().message.find("holds no copy of its scene"), std::string::npos) << scene.error().message;
+}
+
+TEST(Manifest, TheDocumentStatesTheVersion) {
+    const std::string document = test::contents(std::filesystem::path(LOBELIA_DOCS_DIR) / "bake-format.md");
+    EXPECT_NE(document.find("\nVersion " + std::to_string(k_bake_version) + " "), std::string::npos);
+    EXPECT_NE(document.find("| `lobelia_bake`, `program` | " + std::to_string(k_bake_version) + ";"),
+              std::string::npos);
 }
 
 }  // namespace

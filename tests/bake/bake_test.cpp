@@ -1,4 +1,4 @@
-// The bake as a whole: the same bits however it is cut up, and light that is right.
+// Tests the whole bake: the same bits however the work is divided, and correct light.
 #include "lobelia/bake.h"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder of its own that goes with the test.
+/// A folder for one test, removed with it.
 class Folder {
   public:
     Folder() {
@@ -215,7 +215,7 @@ TEST(Bake, ShardsThatDoNotMakeAWholeAreRefused) {
     EXPECT_FALSE(merges(twice));
     EXPECT_FALSE(merges(empty));
     EXPECT_TRUE(fs::is_empty(whole));
-    // And of another bake.
+    // Try the shard of another bake, too.
     job.bake.paths.seed = 5;
     EXPECT_FALSE(merges(parts));
 }
@@ -265,7 +265,7 @@ TEST(Bake, RefusesCheckpointsThatAreNotItsOwn) {
     const auto run = [&](const Scene& scene, const BakeJob& with, Start start) {
         return error_of(scene, with, session_in(out, start));
     };
-    // Not asked to resume; of another scene; with other options.
+    // Refuse a checkpoint if not asked to resume, of another scene, and with other options.
     EXPECT_NE(run(closed_box(), job, Start::fresh).find("--resume"), std::string::npos);
     EXPECT_NE(run(cornell_scene(), job, Start::resume).find("another scene"), std::string::npos);
     BakeJob other = job;

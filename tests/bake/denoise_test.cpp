@@ -1,4 +1,4 @@
-// Denoising, against noise-free truths.
+// Tests denoising against noise-free references.
 #include "bake/finish/finish.h"
 
 #include <random>
@@ -14,7 +14,7 @@ using test::parallelogram;
 using test::scene_of;
 using test::with_uv;
 
-/// A bake of four coefficients on one page, its guides, and what it would be without noise.
+/// A bake of four coefficients on one page, its guides, and its noise-free reference.
 struct Noisy {
     PageChannels layout{4};
     std::vector<LightmapPage> pages;
@@ -55,7 +55,7 @@ Noisy noisy_bake(std::size_t side, const Irradiance& irradiance, double samples,
             }
         }
         const double luminous = 0.2126 + 0.8 * 0.7152 + 0.6 * 0.0722;
-        // The measured error is itself off by a fifth.
+        // The measured error has an uncertainty of a fifth.
         bake.pages[0].planes[bake.layout.error()][i] =
             static_cast<float>(std::abs(luminous * sigma * (1 + 0.2 * normal(generator))));
     }
@@ -93,7 +93,7 @@ TEST(Denoise, KeepsTheEdgesOfShadows) {
     const double before = rms(bake.pages[0], bake.truth, 0, 12);
     denoise(bake);
     EXPECT_LT(rms(bake.pages[0], bake.truth, 0, 12), 0.2 * before);
-    // Beside the edge hardly a texel is off by a fifth of the step.
+    // Near the edge, hardly any texel has an error of a fifth of the step.
     std::size_t off = 0;
     for (std::size_t i = 0; i < bake.truth.size(); ++i)
         off += std::abs(bake.pages[0].planes[12][i] - bake.truth.planes[12][i]) > 0.2f * 1.8f;
@@ -108,7 +108,7 @@ TEST(Denoise, TellsTheErrorThatIsLeft) {
     for (const float e : bake.pages[0].planes[bake.layout.error()]) squared += static_cast<double>(e) * e;
     const double told = std::sqrt(squared / static_cast<double>(bake.truth.size()));
     const double is = rms(bake.pages[0], bake.truth, 12, 13) * (0.2126 + 0.8 * 0.7152 + 0.6 * 0.0722);
-    // Neighbours count as independent after each pass, though they have shared texels: a factor of two is forgiven.
+    // After each pass the filter treats neighbours as independent, although they share texels: allow a factor of two.
     EXPECT_GT(told, 0.5 * is);
     EXPECT_LT(told, 2 * is);
 }
@@ -124,7 +124,7 @@ TEST(Denoise, LeavesWhatHasNoNoise) {
 }
 
 TEST(Denoise, NeverReadsAnotherChart) {
-    // Two charts meet in a staircase. What lies on one does not change a bit of the other, nor does what is invalid.
+    // Two charts meet in a staircase. Texels of one chart and invalid texels must not change a bit of the other chart.
     Noisy bake = noisy_bake(64, smooth_light, 64, 9);
     LightmapPage& page = bake.pages[0];
     for (std::size_t i = 0; i < page.size(); ++i) {
@@ -167,14 +167,14 @@ TEST(Denoise, StopsAtCreasesAndGaps) {
         double mean[2] = {0, 0};
         for (std::size_t y = 0; y < 64; ++y)
             for (std::size_t s = 0; s < 2; ++s) mean[s] += bake.pages[0].planes[12][y * 64 + 31 + s] / 64;
-        // Each is the mean of about 64 x 16 / 2 samples or more, whose spread is their size.
+        // Each value is the mean of at least about 64 x 16 / 2 samples, whose standard deviation equals their mean.
         EXPECT_NEAR(mean[0], 1.0, 4 * 1.0 / std::sqrt(512)) << gap;
         EXPECT_NEAR(mean[1], 1.2, 4 * 1.2 / std::sqrt(512)) << gap;
     }
 }
 
 TEST(Denoise, KeepsDirectionAndBrightnessApart) {
-    // Brightness jumps, the light's direction does not: smoothed brightness must not bend it.
+    // Brightness changes abruptly, the light's direction does not: filtering must not change the direction.
     Noisy bake = noisy_bake(96, shadow, 64, 11);
     denoise(bake);
     for (std::size_t i = 0; i < bake.truth.size(); ++i) {

@@ -1,4 +1,4 @@
-// Filling empty texels, and fitting pages, against plain oracles.
+// Tests dilation and the fitting of pages against plain oracles.
 #include "bake/finish/finish.h"
 
 #include <random>
@@ -36,7 +36,7 @@ TEST(FitPages, EveryTexelIsFittedAndNothingElseChanges) {
     }
 }
 
-/// Charts 1 and 2 in random blots, some texels invalid, values that tell texels apart.
+/// Random patches of charts 1 and 2, some texels invalid, with a different value in each texel.
 LightmapPage blots(std::size_t width, std::size_t height, std::uint32_t seed) {
     LightmapPage page(width, height, 2);
     std::mt19937 generator(seed);
@@ -48,7 +48,7 @@ LightmapPage blots(std::size_t width, std::size_t height, std::uint32_t seed) {
     return page;
 }
 
-/// By looking at all texels for each.
+/// Searches all texels for each one.
 std::vector<float> dilated_plainly(const LightmapPage& page, std::size_t plane, const DilateOptions& options) {
     std::vector<float> result = page.planes[plane];
     const auto w = static_cast<long>(page.width), h = static_cast<long>(page.height);

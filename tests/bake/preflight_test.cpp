@@ -1,4 +1,4 @@
-// Preflight finds what was put wrong on purpose, as much of it as there is, and nothing else.
+// Tests that preflight reports exactly the faults that a scene was given, and nothing else.
 #include "bake/preflight/preflight.h"
 
 #include <map>
@@ -58,7 +58,7 @@ TEST(Preflight, FindsNothingWhereAllIsWell) {
 }
 
 TEST(Preflight, CountsOverlapsBetweenObjects) {
-    // 10 x 40 texels of both, and a third object apart.
+    // Two objects overlap in 10 x 40 texels; a third lies apart.
     const Checked checked(scene_of({square_at(0, 0, 0.4f), square_at(0.3f, 0, 0.4f), square_at(0.8f, 0.8f, 0.2f)}),
                           shared_page(100));
     ASSERT_EQ(checked.found.overlaps.size(), 1u);
@@ -101,7 +101,7 @@ TEST(Preflight, MeasuresThePaddingBetweenCharts) {
         } else {
             ASSERT_TRUE(checked.found.least_padding);
             EXPECT_EQ(*checked.found.least_padding, free);
-            // On each side the columns that are nearer than two free ones.
+            // On each side, the columns with fewer than two free columns beside them.
             EXPECT_EQ(checked.found.objects[0].tight_texels, (2 - free) * 20);
             EXPECT_EQ(checked.found.objects[1].tight_texels, (2 - free) * 20);
         }
@@ -151,7 +151,7 @@ TEST(Preflight, NamesObjectsWithoutUVs) {
     EXPECT_EQ(warnings(checked.found, checked.scene).size(), 1u);
 }
 
-/// A scene may hold thousands of them.
+/// A scene may contain thousands of such objects.
 TEST(Preflight, SaysOnceHowManyHaveNoUVs) {
     Scene scene = scene_of({square_at(0, 0, 1)});
     scene.meshes.push_back(square_at(0, 0, 1));
@@ -163,7 +163,7 @@ TEST(Preflight, SaysOnceHowManyHaveNoUVs) {
 }
 
 TEST(Preflight, WeighsDensityByArea) {
-    // Nine parts of area at 10 texels per metre, one at 80.
+    // Nine tenths of the area at 10 texels per metre, one tenth at 80.
     const Mesh wide = parallelogram({0, 0, 0}, {3, 0, 0}, {0, 3, 0}, {0, 0}, {0.3f, 0.3f});
     const Mesh dense = parallelogram({5, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.2f, 0.35f}, {1, 1});
     const Checked checked(scene_of({wide, with_uv(dense, 1, {0, 0})}), shared_page(100));
@@ -215,12 +215,12 @@ TEST(Preflight, DrawsWhatItFound) {
     const Image8 whole = preflight_picture(checked.found, 0);
     EXPECT_EQ(whole.width, 100u);
     auto counts = colours(whole);
-    // Three charts, nothing, overlap, tight.
+    // Colours of three charts, of empty texels, of overlaps and of tight padding.
     EXPECT_EQ(counts.size(), 6u);
     EXPECT_EQ((counts[{230, 20, 20}]), 400u);
     EXPECT_EQ((counts[{255, 150, 0}]), checked.found.objects[1].tight_texels + checked.found.objects[0].tight_texels +
                                            checked.found.objects[2].tight_texels);
-    // Smaller, and the worst is still there.
+    // A reduced picture still shows the most severe status.
     const Image8 small = preflight_picture(checked.found, 0, 30);
     EXPECT_EQ(small.width, 25u);
     EXPECT_EQ(small.rgb.size(), 25u * 25u * 3u);

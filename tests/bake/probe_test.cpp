@@ -1,4 +1,4 @@
-// Probes: the furnace's light at each, out of walls, the same bits at any number of threads.
+// Tests probes: each measures the furnace's light, none stays inside walls, the same bits at any number of threads.
 #include <gtest/gtest.h>
 
 #include <tbb/task_arena.h>
@@ -34,8 +34,8 @@ ProbeSet probes_of(const Scene& scene, const ProbeOptions& options, unsigned thr
     return *std::move(probes);
 }
 
-/// Cells of 1.3 m about a room of 2 m: the outer probes lie 0.3 m behind the walls, those of edges and corners behind
-/// two and three. All must come in, or interpolation would draw darkness into the room.
+/// Cells of 1.3 m about a room of 2 m: the outer probes lie 0.3 m behind one wall, at edges and corners behind two and
+/// three. All must move into the room, or interpolation would darken it.
 TEST(Probes, OfAGridAboutARoomComeIn) {
     ProbeOptions options;
     options.spacing = 1.3;
@@ -62,7 +62,7 @@ TEST(Probes, WhiteFurnace) {
     ASSERT_EQ(probes.size(), 8u);
     const double radiance = static_cast<double>(k_emission) / (1 - static_cast<double>(k_albedo));
     for (std::size_t i = 0; i < probes.size(); ++i) {
-        // Light is the same from everywhere; that a path ends by roulette is all the noise.
+        // The light is the same from all directions; Russian roulette is the only noise.
         const double found = static_cast<double>(probes.coefficients[4 * i].g) / std::sqrt(4 * k_pi);
         EXPECT_NEAR(found, radiance, 0.02 * radiance);
         for (std::size_t k = 1; k < 4; ++k)

@@ -6,7 +6,7 @@
 #include "folders.h"
 #include "io/read_image.h"
 #include "scene/embedded.h"
-#include "scene/gltf_read.h"
+#include "lobelia/gltf.h"
 
 namespace lobelia {
 namespace {

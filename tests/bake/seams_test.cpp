@@ -157,6 +157,79 @@ TEST(Seams, LeaveWhatAgrees) {
     }
 }
 
+/// The two squares, with a wall without thickness on their common edge.
+struct WalledSquares {
+    Scene scene = test::scene_of({parallelogram({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.05f, 0.05f}, {0.45f, 0.45f}),
+                                  parallelogram({1, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.55f, 0.5f}, {0.95f, 0.9f}),
+                                  test::without_lightmap(parallelogram({1, 0, 0}, {0, 1, 0}, {0, 0, 0.3f}))});
+    World world = make_world(scene);
+    Atlas atlas = *Atlas::make(world, {.width = 64, .height = 64});
+    TexelMap map = map_texels(atlas);
+    PathTracer tracer{scene, world};
+};
+
+TEST(Seams, StayOpenUnderWalls) {
+    const PageChannels layout{1};
+    const WalledSquares squares;
+    const auto before = pages_with(squares.atlas, squares.map, layout, uneven_light);
+    auto through = before, walled = before;
+    close_seams(through, layout, squares.atlas);
+    close_seams(walled, layout, squares.atlas, {}, {&squares.tracer, {}});
+    EXPECT_NE(through[0].planes, before[0].planes);
+    EXPECT_EQ(walled[0].planes, before[0].planes);
+}
+
+TEST(Seams, OfOpenSurfacesCloseAsWithoutATracer) {
+    // On a plane, and around the smooth edge of a hill, nothing stands on the seams.
+    Mesh hill = test::height_field(6, [](float x, float y) { return 0.3f * std::sin(3 * x) * std::sin(3 * y); });
+    for (const Scene& scene : {scene_of({with_uv(hill, 0.45f, {0, 0})}), WalledSquares().scene}) {
+        Scene open = scene;
+        if (open.objects.size() == 3) open.objects.pop_back();
+        const World world = make_world(open);
+        const Atlas atlas = *Atlas::make(world, {.width = 64, .height = 64});
+        const PathTracer tracer(open, world);
+        const PageChannels layout{1};
+        const auto before = pages_with(atlas, map_texels(atlas), layout, uneven_light);
+        auto plain = before, looked = before;
+        close_seams(plain, layout, atlas);
+        close_seams(looked, layout, atlas, {}, {&tracer, {}});
+        EXPECT_EQ(plain[0].planes, looked[0].planes);
+    }
+}
+
+TEST(Seams, DisplacedTexelsTakeNoPart) {
+    const PageChannels layout{1};
+    const WalledSquares squares;
+    const auto before = pages_with(squares.atlas, squares.map, layout, uneven_light);
+    std::vector<std::uint8_t> displaced(before[0].size());
+    const Guides guides = make_guides(squares.atlas, squares.map);
+    for (std::size_t i = 0; i < displaced.size(); ++i)
+        displaced[i] = before[0].chart[i] != 0 && std::abs(guides.position[0][i].x - 1) < 0.1f;
+    auto after = before;
+    close_seams(after, layout, squares.atlas, {}, {nullptr, {displaced}});
+    for (std::size_t i = 0; i < displaced.size(); ++i)
+        if (displaced[i] != 0) {
+            EXPECT_EQ(after[0].planes[0][i], before[0].planes[0][i]);
+        }
+}
+
+TEST(Seams, KeepToTheRangeOfWhatTheyJoin) {
+    // Random light of 0 or 100 makes least squares overshoot.
+    const PageChannels layout{1};
+    const TwoSquares squares(TwoSquares::Where::two_objects);
+    std::mt19937 generator(4);
+    const auto before = pages_with(squares.atlas, map_texels(squares.atlas), layout,
+                                   [&](Vec3, std::uint32_t) { return generator() % 2 == 0 ? 0.0f : 100.0f; });
+    auto after = before;
+    close_seams(after, layout, squares.atlas);
+    EXPECT_NE(after[0].planes, before[0].planes);
+    for (std::size_t c = 0; c < layout.error(); ++c)
+        for (const float value : after[0].planes[c]) {
+            EXPECT_GE(value, 0);
+            EXPECT_LE(value, 100 * static_cast<float>(c + 1));
+        }
+}
+
 TEST(Seams, WithinOneChartCloseToo) {
     // The wall of a tube is one chart whose left and right ends meet.
     constexpr std::uint32_t k_sides = 24;

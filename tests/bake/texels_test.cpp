@@ -1,4 +1,4 @@
-// Points of texels: on the surface, within the texel, and out of what buries them.
+// Tests the sample points of texels: on the surface, within the texel, and not inside overlapping geometry.
 #include "bake/place/texels.h"
 
 #include <algorithm>
@@ -50,7 +50,7 @@ Baked floor_with(std::vector<Mesh> meshes) {
     return {std::move(scene), {.width = k_side, .height = k_side}};
 }
 
-/// There for the light alone.
+/// Provides light only.
 Mesh unbaked(Mesh mesh) {
     mesh.lightmap_uv.clear();
     return mesh;
@@ -59,7 +59,7 @@ Mesh unbaked(Mesh mesh) {
 bool is_near(Vec3 a, Vec3 b, float tolerance) { return length(a - b) <= tolerance; }
 
 TEST(Texels, LieOnTheSurfaceInTheirTexel) {
-    // UVs are the world's x and y, so that texels can be told from positions.
+    // UVs are the world's x and y, so that positions identify texels.
     const auto hill = [](float x, float y) { return 0.2f * std::sin(5 * x) * std::cos(4 * y); };
     Scene scene;
     scene.materials.emplace_back();
@@ -79,7 +79,7 @@ TEST(Texels, LieOnTheSurfaceInTheirTexel) {
         EXPECT_FALSE(texel.moved);
         ASSERT_EQ(texel.position_count, k_most_positions);
         for (std::size_t k = 0; k < k_most_positions; ++k) {
-            // Lifted, but not far.
+            // Check that points lie off the surface, but not far.
             const Vec3 p = texel.positions[k];
             EXPECT_EQ(std::floor(p.x * 50 + 1e-3f * (centre.x - p.x)), static_cast<float>(at.x));
             EXPECT_EQ(std::floor(p.y * 40 + 1e-3f * (centre.y - p.y)), static_cast<float>(at.y));
@@ -166,7 +166,7 @@ TEST(TangentFrame, IsARotationToTheNormal) {
 }
 
 TEST(TangentFrame, TurnsAsSlowlyAsTheNormal) {
-    // All the faces, edges and corners of a cube, and the sphere at large; not the pole itself.
+    // The faces, edges and corners of a cube, and random directions of the sphere, without the pole itself.
     std::vector<Vec3> normals;
     for (int i = 0; i < 27; ++i)
         if (i != 13)
@@ -213,7 +213,8 @@ TEST(PushOut, MovesFloorUnderTheRimOfABox) {
                 EXPECT_NEAR(on[i].positions[k].z, off[i].positions[k].z, 1e-7f);
             }
             for (std::size_t k = 0; k < on[i].position_count && on[i].position_count == off[i].position_count; ++k) {
-                // The shortest way out, up to the angle between two looks, and no farther than a texel.
+                // Points take the shortest way out, within the angle between two search directions, and move at most
+                // one texel.
                 const Vec3 before = off[i].positions[k], after = on[i].positions[k];
                 const float depth = depth_of(before), way = length(after - before);
                 if (on[i].buried || depth < 0) {
@@ -224,7 +225,7 @@ TEST(PushOut, MovesFloorUnderTheRimOfABox) {
                     ++moved;
                 }
             }
-            // What lies deeper than a texel is lost.
+            // Points deeper than a texel stay buried.
             EXPECT_EQ(on[i].buried, depth_of(centre) > 1.2f * k_texel);
         }
         EXPECT_GT(moved, 50u);
@@ -233,7 +234,7 @@ TEST(PushOut, MovesFloorUnderTheRimOfABox) {
 }
 
 TEST(PushOut, StepsUpOntoWhatLiesFlat) {
-    // A sheet whose front looks up, a hundredth of a texel above the floor, and no side of it near.
+    // A sheet that faces up, a hundredth of a texel above the floor, with no edge near.
     const Baked baked = floor_with({unbaked(parallelogram({-0.55f, -0.55f, 0.001f}, {1.1f, 0, 0}, {0, 1.1f, 0}))});
     for (const Receiver& texel : baked.texels(Switch::on)) {
         EXPECT_FALSE(texel.buried);
@@ -245,8 +246,8 @@ TEST(PushOut, StepsUpOntoWhatLiesFlat) {
 }
 
 TEST(PushOut, PassesThroughNoWall) {
-    // Two rooms share a floor; their walls are planes that look into each, nearer to each other than any texel, or one.
-    // What stands free in one room stays in it.
+    // Two rooms share a floor. Their walls are planes that face into each room, in one plane or closer together than a
+    // texel. Points that are free in one room stay in it.
     for (const float gap : {1e-2f, 1e-4f, 1e-5f, 0.0f}) {
         const Mesh right = unbaked(parallelogram({gap / 2, -2, -1}, {0, 4, 0}, {0, 0, 3}));
         const Mesh left = unbaked(parallelogram({-gap / 2, -2, -1}, {0, 0, 3}, {0, 4, 0}));
@@ -259,7 +260,7 @@ TEST(PushOut, PassesThroughNoWall) {
 }
 
 TEST(PushOut, StopsBetweenAWallAndWhatIsRightBehindIt) {
-    // Out of the box, but not into the wall that it nearly touches: a sheet with two sides.
+    // Points move out of the box, but not into the wall that it nearly touches, a two-sided sheet.
     Scene scene = floor_scene();
     scene.materials.emplace_back().double_sided = true;
     test::add_object(scene, box({-0.45f, -0.45f, 0}, {0.45f, 0.45f, 1}));
@@ -291,7 +292,7 @@ TEST(PushOut, GoesThroughObjectsWithinObjects) {
 }
 
 TEST(PushOut, LiftsWallsOutOfTheFloor) {
-    // A wall reaches a third of a texel below the floor; what is beneath comes up.
+    // A wall reaches a third of a texel below the floor; points beneath it move up.
     Scene scene = floor_scene();
     scene.meshes[0].lightmap_uv.clear();
     test::add_object(scene, parallelogram({0, -1, -0.0333f}, {0, 2, 0}, {0, 0, 2}));

@@ -1,6 +1,6 @@
 // Reads textures that Lobelia wrote with ktx-parse, an independent reader, and compares containers, descriptors, bytes
 // and, where a few lines can decode them, numbers.
-//   node tests/ktx2_check.mjs MAKE_KTX2
+//   node tests/cli/ktx2_check.mjs MAKE_KTX2
 // MAKE_KTX2 FOLDER writes NAME.ktx2 for each pixel format NAME, what it should hold as NAME.f32 and NAME.bin, and bakes
 // in folders. Exit code 77 where ktx-parse is not installed.
 import { execFileSync } from 'node:child_process';
@@ -12,7 +12,7 @@ import { pathToFileURL } from 'node:url';
 
 let ktx;
 try {
-  const installed = createRequire(new URL('../tools/package.json', import.meta.url));
+  const installed = createRequire(new URL('../../tools/package.json', import.meta.url));
   ktx = await import(pathToFileURL(installed.resolve('ktx-parse')));
 } catch {
   console.log('ktx-parse is not installed: npm ci --prefix tools');

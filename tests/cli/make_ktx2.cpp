@@ -1,6 +1,5 @@
-// Writes a texture of every pixel format, and beside each the numbers that it should hold as plain float32 (NAME.f32,
-// channels side by side) and its bytes (NAME.bin), for readers that are not ours; and a bake in every storage that
-// suits it. make_ktx2 FOLDER
+// Writes, for tests with independent readers, a texture of every pixel format, its expected values as plain float32
+// (NAME.f32, channels side by side) and its bytes (NAME.bin), and a bake in every compatible storage. make_ktx2 FOLDER
 #include <cstdio>
 
 #include "bake_files.h"
@@ -24,7 +23,7 @@ void write(const std::filesystem::path& path, std::span<const std::byte> bytes) 
 
 constexpr std::size_t k_width = 21, k_height = 34;
 
-/// Noise over many magnitudes, within the format's limits; and what lies beyond them.
+/// Noise over many magnitudes, within the format's limits and beyond them.
 std::vector<float> some_values(const FormatInfo& format, std::mt19937& generator) {
     std::vector<float> values(k_width * k_height);
     const double highest = std::min(format.highest, 1e6), lowest = std::max(format.lowest, -1e6);
@@ -59,7 +58,7 @@ void make_texture(const std::filesystem::path& folder, PixelFormat pixel_format)
     write(folder / (name + ".f32"), std::as_bytes(std::span(side_by_side)));
 }
 
-/// Every storage that suits the codec; numbers that bytes and halves hold exactly where they can.
+/// Every compatible storage; values that bytes and half floats hold exactly where possible.
 void make_bake(const std::filesystem::path& folder, const std::string& codec) {
     const Bake bake = test::some_bake(codec);
     const auto traits = coefficient_traits(*make_codec(codec)->encoder());

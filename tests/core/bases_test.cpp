@@ -1,4 +1,4 @@
-// What bases state of themselves in closed form equals quadrature: Gram matrices, integrals, irradiance.
+// Tests the closed forms of bases against quadrature: Gram matrices, integrals, irradiance.
 #include <gtest/gtest.h>
 
 #include "core/basis/cosine_lobes.h"
@@ -20,8 +20,8 @@ std::vector<std::string> linear_names() {
     return names;
 }
 
-/// Heights of a product rule that integrates the functions of a basis, and the relative error that is left: functions
-/// with creases and steps are integrated slowly. Then the largest error of irradiance over its largest value.
+/// Number of heights of the product rule that integrates the functions of a basis, and the relative error that remains:
+/// functions with creases and steps converge slowly. Then the largest error of irradiance over its largest value.
 struct Rule {
     std::size_t heights = 64;
     double error = 2e-6;
@@ -34,7 +34,7 @@ Rule rule_for(const std::string& name) {
     return {};
 }
 
-/// Test functions stay under ten seconds: bases beyond this many functions are tested by smaller ones of their kind.
+/// Keeps each test under ten seconds: bases with more functions are represented by smaller ones of their family.
 constexpr std::size_t k_most_functions = 64;
 
 TEST(EveryLinearBasis, GramAndIntegralsEqualQuadrature) {
@@ -75,7 +75,7 @@ Rotation frame_of(Vec3 n) {
     return {Vec3{t.x, b.x, n.x}, Vec3{t.y, b.y, n.y}, Vec3{t.z, b.z, n.z}};
 }
 
-/// Irradiance at n of the radiance that coefficients stand for, by a rule over the hemisphere about n.
+/// Integrates the radiance of the coefficients over the hemisphere about n.
 Rgb numeric_irradiance(const Basis& basis, std::span<const Rgb> c, Vec3 n, const SphereRule& rule) {
     const Directions directions = test::turned(rule.directions, frame_of(n));
     Colours radiance(directions.size());
@@ -104,7 +104,7 @@ TEST(EveryBasis, ExactIrradianceIsTheIntegralOfItsRadiance) {
         const auto evaluator = basis->evaluator(basis->evaluator_names().back());
         if (evaluator->accuracy().reading != Reading::of_radiance) continue;
         const auto c = some_coefficients(basis);
-        // Over the hemisphere: at the normal whose light is all above the horizon.
+        // Over the hemisphere, only the normal z receives all its light from the domain.
         Directions normals = test::random_directions(Domain::sphere, basis->domain() == Domain::sphere ? 20 : 1, 6);
         if (basis->domain() == Domain::hemisphere) set_entry(normals.view(), 0, Vec3{0, 0, 1});
         Colours E(normals.size());
@@ -143,7 +143,7 @@ TEST(AmbientDice, PassesThroughItsValuesAndSlopes) {
     for (std::size_t v = 0; v < 12; ++v) {
         const Vec3 at = icosahedron::vertices()[v];
         EXPECT_LE(test::norm(radiance_at(*basis, c, at) - c[3 * v]), 1e-5);
-        // Across the vertex in ten directions, halves of which lie on different faces: one plane touches them all.
+        // Compare slopes across the vertex in ten directions, on different faces: one tangent plane fits them all.
         const Vec3 u = normalize(cross(std::abs(at.z) < 0.5f ? Vec3{0, 0, 1} : Vec3{1, 0, 0}, at)), w = cross(at, u);
         const float step = 0.01f;
         for (int k = 0; k < 10; ++k) {

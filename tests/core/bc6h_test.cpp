@@ -1,5 +1,5 @@
-// BC6H: the decoder gives another's answers for every mode; the encoder is exact where it can be, never leaves a
-// block's range, gains by its second region, and is the same on all instruction sets but for rounding.
+// Tests BC6H: the decoder agrees with Mesa in every mode; the encoder is exact where the format allows, stays within a
+// block's range, gains from the second region, and agrees between instruction sets except for rounding.
 #include "core/storage/format/bc6h/bc6h.h"
 
 #include <map>
@@ -103,7 +103,7 @@ struct Block {
 
 double root(float v) { return std::copysign(std::sqrt(std::abs(static_cast<double>(v))), v); }
 
-/// The sum of squared differences of square roots, which the encoder makes small.
+/// Sum of squared differences of square roots, which the encoder minimises.
 double error(const Block& a, const Block& b) {
     double sum = 0;
     for (std::size_t c = 0; c < 3; ++c)
@@ -117,7 +117,7 @@ class RandomBlocks {
     float uniform() { return static_cast<float>(generator_()) * 0x1p-32f; }
     std::uint32_t number(std::uint32_t below) { return static_cast<std::uint32_t>(generator_()) % below; }
 
-    /// Noise, gradients, two colours with an edge between, an outlier, a flat colour: what lightmaps have.
+    /// The kinds of blocks in lightmaps: noise, gradients, two colours with an edge between, an outlier, a flat colour.
     Block block(Signedness sign) {
         Block b;
         const std::uint32_t kind = number(5);
@@ -155,7 +155,7 @@ TEST(Bc6hEncoder, FlatBlocksAreAsNearAsHalvesCanBe) {
                 std::fill_n(channel, 16, v);
             }
             const Block back = b.through(sign);
-            // Between two halves either may come.
+            // A value halfway between two half floats may round to either.
             for (std::size_t c = 0; c < 3; ++c)
                 for (std::size_t i = 0; i < 16; ++i) {
                     const float v = b.values[c][i], nearest = float_from_half(half_from_float(v));
@@ -171,7 +171,7 @@ TEST(Bc6hEncoder, BlackAndTheLargestAreExact) {
         EXPECT_EQ(b.through(Signedness::unsigned_halves).values[1][7], std::min(v, 65504.0f));
         EXPECT_EQ(b.through(Signedness::signed_halves).values[1][7], std::min(v, 65504.0f));
     }
-    // No light is negative.
+    // Unsigned blocks clamp negative values to 0.
     Block b;
     for (auto& channel : b.values) std::fill_n(channel, 16, -1.0f);
     EXPECT_EQ(b.through(Signedness::unsigned_halves).values[0][0], 0);
@@ -195,7 +195,7 @@ TEST(Bc6hEncoder, StaysWithinTheRangeOfTheBlock) {
 }
 
 TEST(Bc6hEncoder, ABrightChannelThatHardlyVariesIsKept) {
-    // The dark one wants endpoints far apart, which leaves few bits for the bright one.
+    // The dark region needs endpoints far apart, which leaves few bits for the bright one.
     RandomBlocks random(6);
     for (int n = 0; n < 2000; ++n) {
         Block b;
@@ -209,7 +209,7 @@ TEST(Bc6hEncoder, ABrightChannelThatHardlyVariesIsKept) {
 }
 
 TEST(Bc6hEncoder, TwoFlatRegionsAreKeptSharp) {
-    // Every partition with two colours that differ in all channels: only its own two regions hold them.
+    // Two colours that differ in all channels, split by each partition: only that partition represents them.
     for (const Signedness sign : k_signs)
         for (std::size_t p = 0; p < bc6h::k_partitions; ++p) {
             Block b;

@@ -68,7 +68,7 @@ TEST(CodecNames, UnknownNamesGiveTheNearestOnes) {
     expect_error("sh2/nnls/convolution", {"nnls", "non-negative", "sh2"});
     expect_error("sh1/running-average/convolution", {"running-average", "non-negative"});
     expect_error("sg12/least-squares", {"basis/encoder/evaluator", "sg12/least-squares/"});
-    expect_error("sg:no-such-file.txt/moments/exact", {"no-such-file.txt"});
+    expect_error("sg:lobes.txt/moments/exact", {"command line", "sg{...}"});
     // Nothing near: no suggestion.
     const auto codec = make_codec("xyzzyxyzzyxyzzy/moments/exact");
     ASSERT_FALSE(codec);

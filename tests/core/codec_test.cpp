@@ -10,7 +10,7 @@
 
 #include "core/basis/sg/sg_irradiance.h"
 #include "core/basis/sg/spherical_gaussians.h"
-#include "core/encode/moments.h"
+#include "lobelia/encoders.h"
 #include "support.h"
 
 namespace lobelia {
@@ -262,7 +262,7 @@ TEST(EveryCodec, WhiteFurnaceOfTheBestFitIsAsStated) {
             const auto stated = own ? evaluator->accuracy().furnace : stated_error(*basis, evaluator_name, c);
             if (!stated) continue;
             EXPECT_LE(worst_of_irradiance(irradiance_of(*evaluator, c, normals), {}, normals),
-                      basis->furnace_bias() + *stated)
+                      card_of(*basis).furnace_bias + *stated)
                 << name << " " << evaluator_name;
         }
     }

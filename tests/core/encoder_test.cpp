@@ -4,10 +4,9 @@
 
 #include <map>
 
-#include "core/encode/moments.h"
-#include "core/encode/sequential.h"
 #include "ennis.h"
 #include "lobelia/codec.h"
+#include "lobelia/encoders.h"
 #include "support.h"
 
 namespace lobelia {

@@ -1,4 +1,5 @@
-// Latitude-longitude grids tile the sphere, resizing keeps energy anywhere, and exact irradiance is exact.
+// Tests that latitude-longitude grids tile the sphere, that resizing keeps energy everywhere, and that the irradiance
+// sum is exact.
 #include "lobelia/environment.h"
 
 #include <gtest/gtest.h>
@@ -220,7 +221,7 @@ TEST(DomainFrames, RoundTripAndTurnUpToZ) {
     EXPECT_EQ(cross(turned({1, 0, 0}), turned({0, 1, 0})), turned({0, 0, 1}));
 }
 
-/// The radiance that `image` holds where a domain's direction looks.
+/// Returns the radiance of `image` in a direction of the domain.
 Rgb seen(const Image& image, Domain domain, Vec3 direction) {
     return image.pixels[lat_long(image).index(world_from_domain(domain, direction))];
 }
@@ -268,7 +269,7 @@ TEST(TexelSamples, ShuffledAreTheSameTexelsInAnotherOrder) {
 }
 
 TEST(TexelSamples, EveryBeginningOfAShuffleIsSpread) {
-    // The mean direction, weighted by solid angle, of the first N of independent texels is off 0 by about 1 / sqrt(N).
+    // The mean direction of N independent texels, weighted by solid angle, differs from 0 by about 1 / sqrt(N).
     const Image image(128, 64);
     for (const std::uint32_t seed : {0u, 1u, 2u, 3u}) {
         const Samples samples = shuffled_texel_samples(image, Domain::sphere, seed);
@@ -364,7 +365,7 @@ TEST(IrradianceSum, ConstantEnvironmentGivesPiTimesRadiance) {
     Colours out(200);
     irradiance_sum(texel_samples(constant({256, 128}, {1, 2, 0})), normals, out);
     for (std::size_t i = 0; i < 200; ++i) {
-        // Texel centres stand for texels: an error of about (pi / 128)^2 / 12.
+        // Texel centres represent texels, with an error of about (pi / 128)^2 / 12.
         EXPECT_NEAR(out.channel(0)[i], k_pi, 1e-4 * k_pi);
         EXPECT_NEAR(out.channel(1)[i], 2 * k_pi, 2e-4 * k_pi);
         EXPECT_EQ(out.channel(2)[i], 0);
@@ -374,7 +375,7 @@ TEST(IrradianceSum, ConstantEnvironmentGivesPiTimesRadiance) {
 TEST(LatLongIrradiance, EqualsIrradianceSumAtAllNormals) {
     for (const Domain domain : {Domain::sphere, Domain::hemisphere}) {
         const Samples samples = texel_samples(test::small_sky(), domain);
-        // With antipodes, and without: odd sizes, and halves that are no whole lanes.
+        // With antipodes and without: odd sizes, and halves that do not fill whole lanes.
         for (const LatLong grid :
              {LatLong{64, 32}, LatLong{16, 8}, LatLong{31, 17}, LatLong{6, 2}, LatLong{10, 3}, LatLong{1, 1}}) {
             Colours expected(grid.size());

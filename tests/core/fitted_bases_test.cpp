@@ -1,4 +1,4 @@
-// Bases that are fitted: each fit finds what it can represent, and is the best of its kind by brute force.
+// Tests fitted bases: each fit recovers light that it can represent, and a brute-force search finds nothing better.
 #include <gtest/gtest.h>
 
 #include "core/basis/directional_lightmaps.h"
@@ -224,7 +224,7 @@ TEST(DirectionalLightmaps, IrradianceAtTheSurfacesNormalIsExact) {
     for (const char* name : {"irradz", "enlighten", "enlighten-rgb"})
         for (const char* encoder : {"moments", "least-squares"}) {
             const Colours E = irradiance_of(name, encode(name, samples, encoder), up);
-            // Moments over the samples stand for those over the domain: the error is that of the sequence.
+            // Moments over the samples replace moments over the domain: the error is that of the sequence.
             EXPECT_LE(test::norm(colour_at(E.view(), 0) - expected), 1e-3 * test::norm(expected)) << name << encoder;
         }
 }
@@ -300,7 +300,7 @@ TEST(DirectionalLightmaps, DirectionsAreNoLongerThanOne) {
 TEST(AmbientCubeIrradiance, IsTheBestFitToTheIrradiance) {
     const Samples samples = test::samples_of(Domain::sphere, 8192, scene);
     const auto c = encode("ambient-cube-e", samples);
-    // By QR on the exact irradiance at many normals.
+    // Solve by QR on the exact irradiance at many normals.
     const SphereRule rule = product_rule(Domain::sphere, 24);
     Colours E(rule.directions.size());
     irradiance_sum(samples, rule.directions, E);
@@ -362,7 +362,7 @@ TEST(FittedGaussians, SixLobesOnEnnisAreFarBelowTwelveFixedOnes) {
     EXPECT_GT(result.methods[1].radiance.rms, 4.5);
 }
 
-// ---- Figures that are known on ennis ----
+// ---- Known figures on ennis.hdr ----
 
 TEST(Ennis, IrradianceErrorsAreTheKnownOnes) {
     SKIP_WITHOUT_ENNIS();
@@ -414,7 +414,7 @@ TEST(Minimise, FindsTheBottomOfAQuadraticAndOfRosenbrocksValley) {
 }
 
 TEST(Minimise, NeverRises) {
-    // A corner, where gradients mislead.
+    // A kink, where the gradient is misleading.
     const Objective corner = [](std::span<const double> x, std::span<double> gradient) {
         gradient[0] = x[0] > 0 ? 1 : -3;
         return x[0] > 0 ? x[0] : -3 * x[0];

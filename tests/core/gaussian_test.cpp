@@ -3,12 +3,12 @@
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <fstream>
 #include <limits>
 
 #include "core/basis/sg/sg_irradiance.h"
 #include "core/basis/sg/spherical_gaussians.h"
+#include "lobelia/codec.h"
 #include "support.h"
 
 namespace lobelia {
@@ -402,24 +402,7 @@ TEST(SphericalGaussians, NamesMakeTheirSets) {
         EXPECT_EQ(size(name), 0u) << name;
 }
 
-/// A file of lobes in the test's own folder.
-class LobeFile {
-  public:
-    explicit LobeFile(const std::string& text)
-        : path_(testing::TempDir() + "lobes-" + testing::UnitTest::GetInstance()->current_test_info()->name() +
-                ".txt") {
-        std::ofstream(path_, std::ios::binary) << text;
-    }
-    ~LobeFile() { std::filesystem::remove(path_); }
-    LobeFile(const LobeFile&) = delete;
-    LobeFile& operator=(const LobeFile&) = delete;
-    [[nodiscard]] const std::string& path() const { return path_; }
-
-  private:
-    std::string path_;
-};
-
-TEST(LobeFiles, RoundTrip) {
+TEST(Lobes, RoundTrip) {
     const auto lobes = vogel_sphere(7);
     std::string text = "# seven lobes\n\n";
     for (const Lobe& lobe : lobes) {
@@ -428,8 +411,7 @@ TEST(LobeFiles, RoundTrip) {
                       lobe.sharpness);
         text += line;
     }
-    const LobeFile file(text + "  ambient  ");
-    const auto read = read_lobes(file.path());
+    const auto read = parse_lobes(text + "  ambient  ", "lobes.txt");
     ASSERT_TRUE(read);
     ASSERT_EQ(read->size(), 8u);
     for (std::size_t i = 0; i < 7; ++i) {
@@ -438,52 +420,61 @@ TEST(LobeFiles, RoundTrip) {
     }
     EXPECT_EQ(read->back().sharpness, 0);
 
-    for (const auto& [prefix, domain] : {std::pair{"sg:", Domain::sphere}, std::pair{"sgh:", Domain::hemisphere}}) {
-        const auto basis = SphericalGaussians::from_name(prefix + file.path());
-        ASSERT_TRUE(basis && *basis);
-        EXPECT_EQ((*basis)->name(), prefix + file.path());
+    // The basis's name holds the lobes: it makes the same basis again.
+    for (const auto& [prefix, domain] : {std::pair{"sg{", Domain::sphere}, std::pair{"sgh{", Domain::hemisphere}}) {
+        const auto made = spherical_gaussians(*read, domain);
+        EXPECT_TRUE(made->name().starts_with(prefix)) << made->name();
+        const auto basis = SphericalGaussians::from_name(made->name());
+        ASSERT_TRUE(basis && *basis) << made->name();
+        EXPECT_EQ((*basis)->name(), made->name());
         EXPECT_EQ((*basis)->domain(), domain);
-        EXPECT_EQ((*basis)->size(), 8u);
+        EXPECT_EQ(dynamic_cast<const SphericalGaussians&>(**basis).lobes(), *read);
     }
 }
 
-TEST(LobeFiles, AxesAreNormalised) {
-    const LobeFile file("0 0 20 5\n3 0 4 5\n");
-    const auto read = read_lobes(file.path());
+TEST(Lobes, AxesAreNormalised) {
+    const auto read = parse_lobes("0 0 20 5\n3 0 4 5\n", "lobes.txt");
     ASSERT_TRUE(read);
     EXPECT_EQ((*read)[0].axis, (Vec3{0, 0, 1}));
     EXPECT_LT(length((*read)[1].axis - Vec3{0.6f, 0, 0.8f}), 2e-7f);
 }
 
-TEST(LobeFiles, EveryKindOfBadLineNamesFileAndLine) {
+TEST(Lobes, EveryKindOfBadLineNamesSourceAndLine) {
     for (const char* line :
          {"1 0 0", "1 0 0 5 6", "a b c d", "1,0,0,5", "0 0 0 5", "1e-9 0 0 5", "1e30 0 0 5", "1 0 0 -1", "1 0 0 10001",
           "nan 0 0 5", "inf 0 0 5", "1 0 0 nan", "1 0 0 inf", "1 0 0 5x", "1e999 0 0 5", "ambient 5", "Ambient", "1"}) {
-        const LobeFile file("0 0 1 3\n# comment\n" + std::string(line) + "\n0 0 1 4\n");
-        const auto read = read_lobes(file.path());
+        const auto read = parse_lobes("0 0 1 3\n# comment\n" + std::string(line) + "\n0 0 1 4\n", "lobes.txt");
         ASSERT_FALSE(read) << line;
-        EXPECT_NE(read.error().message.find(file.path() + ":3: "), std::string::npos) << read.error().message;
-        EXPECT_FALSE(SphericalGaussians::from_name("sg:" + file.path()));
+        EXPECT_NE(read.error().message.find("lobes.txt:3: "), std::string::npos) << read.error().message;
+        EXPECT_FALSE(SphericalGaussians::from_name("sg{0 0 1 3;" + std::string(line) + "}"));
     }
 }
 
-TEST(LobeFiles, MissingEmptyAndOverlongFilesAreErrors) {
-    const auto expect_error = [](const std::string& path) {
-        const auto read = read_lobes(path);
-        ASSERT_FALSE(read) << path;
-        EXPECT_NE(read.error().message.find(path), std::string::npos) << read.error().message;
+TEST(Lobes, NoneAndTooManyAreErrors) {
+    const auto expect_error = [](const std::string& text) {
+        const auto read = parse_lobes(text, "lobes.txt");
+        ASSERT_FALSE(read) << text;
+        EXPECT_NE(read.error().message.find("lobes.txt"), std::string::npos) << read.error().message;
     };
-    expect_error(testing::TempDir() + "no-such-file.txt");
-    expect_error(testing::TempDir());
-    expect_error(LobeFile("").path());
-    {
-        const LobeFile empty("\n# nothing\n\n");
-        expect_error(empty.path());
-    }
+    expect_error("");
+    expect_error("\n# nothing\n\n");
     std::string many;
     for (int i = 0; i < 513; ++i) many += "0 0 1 2\n";
-    const LobeFile overlong(many);
-    expect_error(overlong.path());
+    expect_error(many);
+}
+
+TEST(Lobes, NoNameOpensAFile) {
+    const std::string path = testing::TempDir() + "lobelia_lobes.txt";
+    std::ofstream(path) << "0 0 1 5\n";
+    for (const std::string prefix : {"sg:", "sgh:"}) {
+        const auto basis = make_basis(prefix + path);
+        ASSERT_FALSE(basis);
+        EXPECT_NE(basis.error().message.find("command line"), std::string::npos) << basis.error().message;
+        EXPECT_FALSE(make_codec(prefix + path + "/moments/exact"));
+    }
+    for (const char* name : {"sg{", "sg{}", "sgh{;}", "sg{0 0 1 5", "sg{0 0 1 5}x", "sg{0 0 1 5\n0 0 1}"})
+        EXPECT_FALSE(make_basis(name)) << name;
+    std::remove(path.c_str());
 }
 
 }  // namespace

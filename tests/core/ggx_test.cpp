@@ -2,6 +2,7 @@
 // sampling.
 #include "core/math/ggx.h"
 
+#include "core/sample/ggx_fast.h"
 #include "lobelia/codec.h"
 #include "lobelia/specular.h"
 #include "support.h"
@@ -215,6 +216,32 @@ TEST(Specular, NamesAreKnown) {
         ASSERT_FALSE(unknown);
         EXPECT_NE(unknown.error().message.find("did you mean sampled"), std::string::npos) << unknown.error().message;
     }
+}
+
+TEST(Ggx, TheFastFormsEqualTheExactOnes) {
+    const Directions normals = uniform_directions(Domain::hemisphere, Sequence::sobol, 200, 3);
+    for (const float alpha : {0.01f, 0.1f, 0.5f, 1.0f})
+        for (std::size_t i = 0; i < normals.size(); ++i) {
+            const Vec3 h = direction_at(normals, i);
+            if (h.z < 0.05f) continue;
+            const double exact = ggx::distribution(alpha, h);
+            EXPECT_NEAR(ggx::fast::distribution(alpha, h), exact, 2e-5 * exact) << alpha;
+            const double smith = ggx::smith(alpha, h);
+            EXPECT_NEAR(ggx::fast::lambda(alpha, h), smith, 1e-6 + 2e-6 * smith) << alpha;
+        }
+}
+
+TEST(Ggx, TheFastVisibleNormalsEqualTheExactOnes) {
+    for (const float alpha : {0.05f, 0.3f, 1.0f})
+        for (const float cosine : {0.1f, 0.5f, 0.95f}) {
+            const auto view = ggx::make_view(cosine, alpha);
+            for (const Point2 p : sequence_points(Sequence::sobol, 64, 5)) {
+                const Pair pair{static_cast<float>(p.a), static_cast<float>(p.b)};
+                const Vec3 exact = ggx::VisibleNormal::sample(view, {pair.a, pair.b});
+                const Vec3 fast = ggx::fast::visible_normal(alpha, view.direction(), pair);
+                EXPECT_LT(length(fast - exact), 3e-4f) << alpha << " " << cosine;
+            }
+        }
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// Spherical harmonics are orthonormal, rotate as functions do, and convolve with the clamped cosine as printed.
+// Tests that spherical harmonics are orthonormal, rotate as functions do, and convolve with the clamped cosine as
+// published.
 #include "core/math/harmonics.h"
 
 #include <gtest/gtest.h>
@@ -37,7 +38,7 @@ TEST(Harmonics, LowDegreesEqualTheirPolynomials) {
         const auto oracle = harmonics::values(2, x, y, z);
         for (std::size_t i = 0; i < 9; ++i) {
             EXPECT_NEAR(rows[i * k_block_size + j], expected[i], 1e-6) << i;
-            EXPECT_NEAR(oracle[i], expected[i], 1e-6) << i;  // the float32 direction is no exact unit vector
+            EXPECT_NEAR(oracle[i], expected[i], 1e-6) << i;  // the float32 direction is not an exact unit vector
         }
     }
 }

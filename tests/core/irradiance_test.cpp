@@ -1,4 +1,4 @@
-// Every evaluator of irradiance stays within the range and the error that it states, and the exact ones are exact.
+// Tests every irradiance evaluator against the error that it states within its range; exact evaluators are exact.
 #include <gtest/gtest.h>
 
 #include <map>

@@ -1,5 +1,5 @@
-// Every kernel, basis and evaluator gives the same with every instruction set that was compiled and that this machine
-// has, down to plain scalar code where that was compiled too (HWY_COMPILE_ALL_ATTAINABLE).
+// Tests that every kernel, basis and evaluator gives the same results with every compiled instruction set that this
+// machine has, down to scalar code if it was compiled too (HWY_COMPILE_ALL_ATTAINABLE).
 #include "core/math/kernels.h"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ namespace {
 
 using Run = std::function<std::vector<float>()>;
 
-/// Whatever `run` returns agrees between all targets to 1e-6 of its largest magnitude, or of `least_scale`.
+/// Checks that the result of `run` agrees between all targets to 1e-6 of its largest magnitude, or of `least_scale`.
 void expect_equal_on_all_targets(const Run& run, const std::string& what, double least_scale = 0) {
     const std::vector<float> expected = run();
     double scale = least_scale;
@@ -181,7 +181,7 @@ TEST(Kernels, CombineWritesNothingBeyondItsEnd) {
         const std::vector<Rgb> c(12, Rgb{1, 1, 1});
         for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
             const test::OnlyTargets only(target);
-            // A view of the beginning of something longer.
+            // Pass a view of the first entries of a longer array.
             Colours out(size + 40);
             for (std::size_t k = 0; k < 3; ++k) std::fill_n(out.channel(k), size + 40, -7.0f);
             kernels::combine(rows.data(), 12, c, out.view().part(0, size));
@@ -243,7 +243,7 @@ TEST(Targets, EveryBasisIsTheSame) {
                         return std::vector<float>(row, row + size);
                     },
                     name + " function " + std::to_string(i));
-            if (basis->size() > 16) break;  // the sizes are tested by the small bases
+            if (basis->size() > 16) break;  // smaller bases test the sizes
         }
     }
 }
@@ -257,8 +257,8 @@ TEST(Targets, EveryEvaluatorIsTheSame) {
         const Directions normals = test::random_directions(Domain::sphere, 300, 6);
         for (const auto& evaluator_name : basis->evaluator_names()) {
             const auto evaluator = basis->evaluator(evaluator_name);
-            // Meder and Bruederlin's form is the difference of terms 32.7 times as large as the lobes' integrals, and
-            // is equal to 1e-6 of those.
+            // Meder and Bruederlin's form is a difference of terms 32.7 times as large as the lobes' integrals, and
+            // agrees to 1e-6 of those terms.
             double terms = 0;
             if (evaluator_name == "meder")
                 for (const double integral : basis->linear()->integrals()) terms += 32.7 * integral;
@@ -274,7 +274,7 @@ TEST(Targets, EveryEvaluatorIsTheSame) {
 }
 
 TEST(Targets, EveryReadingOfGlossIsTheSame) {
-    // Those of a family are the same code.
+    // Members of a family share their code.
     for (const char* name : {"sg12", "sgfit3", "sh1", "sh4"}) {
         const auto basis = make_basis(name).value();
         std::vector<Rgb> c(basis->size());

@@ -3,9 +3,12 @@
 
 #include <Eigen/Dense>
 #include <functional>
+#include <random>
 
-#include "core/encode/sequential.h"
+#include "core/math/least_squares.h"
+#include "core/math/small_nnls.h"
 #include "lobelia/codec.h"
+#include "lobelia/encoders.h"
 #include "lobelia/environment.h"
 #include "lobelia/sampling.h"
 #include "lobelia/sky.h"
@@ -171,6 +174,26 @@ TEST(MatrixGain, FollowsItsFormula) {
                         b += inverse * w * (v - w.transpose() * b) * (step.weight / (step.total * damping));
                     });
     }
+}
+
+TEST(Nnls, TheSmallFormEqualsTheGeneralOne) {
+    // Random positive definite systems of which about half of the unknowns end at 0.
+    constexpr std::size_t most = 8;
+    std::mt19937 generator(3);
+    std::normal_distribution<double> normal;
+    for (std::size_t n = 1; n <= most; ++n)
+        for (int repetition = 0; repetition < 50; ++repetition) {
+            const auto size = static_cast<Eigen::Index>(n);
+            const Eigen::MatrixXd a = Eigen::MatrixXd::NullaryExpr(size + 3, size, [&] { return normal(generator); });
+            const Eigen::MatrixXd gram = a.transpose() * a;
+            const Matrix rows(gram.data(), gram.data() + gram.size());
+            SmallNnls<most>::Vector m{};
+            for (std::size_t i = 0; i < n; ++i) m[i] = normal(generator);
+            std::array<bool, most> free{};
+            const auto small = SmallNnls<most>::solve(rows, m, n, free);
+            const auto general = non_negative_least_squares(rows, std::span(m).first(n));
+            for (std::size_t i = 0; i < n; ++i) EXPECT_NEAR(small[i], general[i], 1e-8 * (1 + general[i])) << n;
+        }
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Whether docs/references.bib has an entry for every paper that a source file names in its first lines.
+// Tests that docs/references.bib has an entry for every paper that a source file names in its first lines.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,7 +24,7 @@ std::string opening_comment(const std::filesystem::path& path) {
     return comment;
 }
 
-/// Entries as text: what stands between one @ at the beginning of a line and the next.
+/// Splits the bibliography into entries, each from an @ at the beginning of a line to the next one.
 std::vector<std::string> entries_of(const std::string& bibliography) {
     std::vector<std::string> entries;
     for (std::size_t begin = bibliography.find("\n@"); begin != std::string::npos;) {

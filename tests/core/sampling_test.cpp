@@ -8,6 +8,7 @@
 #include <numeric>
 #include <set>
 
+#include "core/sample/directions.h"
 #include "support.h"
 
 namespace lobelia {
@@ -384,6 +385,16 @@ TEST(AliasTable, NeverChoosesWeightZero) {
             const std::size_t chosen = table.choose(i, u);
             EXPECT_TRUE(chosen == 1 || chosen == 3) << i << " at " << u;
         }
+}
+
+TEST(Directions, TheFastCosineMapEqualsTheExactOne) {
+    for (const Point2 p : sequence_points(Sequence::sobol, 1000, 5)) {
+        const Pair pair{static_cast<float>(p.a), static_cast<float>(p.b)};
+        // The fast form takes the height from 1 - a, too, but its radius from a.
+        EXPECT_LT(length(cosine_direction(pair) - CosineHemisphere::sample({pair.a, pair.b})), 2e-6f);
+        // Near the poles sqrt(1 - z^2) has half of the digits of z.
+        EXPECT_LT(length(around_z(1 - 2 * pair.a, pair.b) - UniformSphere::sample({pair.a, pair.b})), 4e-4f);
+    }
 }
 
 }  // namespace

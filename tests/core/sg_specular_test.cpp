@@ -21,7 +21,7 @@ float read_gloss(SgSpecular kind, const ggx::View& view, float sharpness, Vec3 a
 }
 
 /// Relative error of each kind, root mean square over all axes of a lobe.
-std::vector<double> gloss_errors(const ggx::View& view, float sharpness, DirectionView axes, std::size_t count) {
+std::vector<double> specular_errors(const ggx::View& view, float sharpness, DirectionView axes, std::size_t count) {
     const auto rays = ggx::rays(view, count);
     const auto kinds = sg_specular_list();
     std::vector<std::vector<float>> values;
@@ -46,7 +46,7 @@ TEST(SgSpecular, WithinStatedErrors) {
     for (float alpha : {0.1f, 0.17f, 0.3f, 0.5f, 0.8f})
         for (float cosine : {0.25f, 0.4f, 0.7f, 1.0f})
             for (float sharpness : {2.0f, 5.0f, 12.0f, 30.0f, 64.0f}) {
-                const auto e = gloss_errors(ggx::make_view(cosine, alpha), sharpness, axes, 1024);
+                const auto e = specular_errors(ggx::make_view(cosine, alpha), sharpness, axes, 1024);
                 for (std::size_t k = 0; k < e.size(); ++k) worst[k] = std::max(worst[k], e[k]);
             }
     for (const auto& info : sg_specular_list()) {
@@ -63,7 +63,7 @@ TEST(SgSpecular, ReproducesThePublishedTable) {
     for (float alpha : {0.1f, 0.25f, 0.5f, 0.8f})
         for (float cosine : {0.95f, 0.6f, 0.25f})
             for (float sharpness : {2.0f, 6.0f, 16.0f, 64.0f}) {
-                const auto e = gloss_errors(ggx::make_view(cosine, alpha), sharpness, axes, 1024);
+                const auto e = specular_errors(ggx::make_view(cosine, alpha), sharpness, axes, 1024);
                 for (std::size_t k = 0; k < e.size(); ++k) mean[k] += e[k] / 48;
             }
     const auto of = [&](SgSpecular kind) { return mean[static_cast<std::size_t>(kind)]; };

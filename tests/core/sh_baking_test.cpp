@@ -1,5 +1,5 @@
-// The steps of the degree-1 SH bake give the same irradiance, that of the SH basis, and what is stored is what a
-// storage of ratios stores.
+// Tests that the steps of the degree-1 SH bake give the irradiance of the SH basis, and that the stored form equals
+// that of a ratio storage.
 #include "core/basis/sh/sh_baking.h"
 
 #include "lobelia/codec.h"
@@ -13,7 +13,7 @@ using namespace sh_baking;
 
 constexpr std::array k_domains = {Domain::sphere, Domain::hemisphere};
 
-/// Light of every kind: a dim, coloured surround and a bright spot.
+/// A dim, coloured surround and a bright spot.
 Samples some_samples(Domain domain, std::size_t count = 2000) {
     const Vec3 bright = normalize(Vec3{0.4f, -0.5f, 0.7f});
     return test::samples_of(domain, count, [&](Vec3 d) {
@@ -81,13 +81,13 @@ TEST(ShBaking, ConstantAndLinearSkiesAreExact) {
         EXPECT_NEAR(found.g, 1 + 2.0f / 3 * dot(a, n), 1e-3);
         EXPECT_NEAR(found.b, 2, 2e-3);
     }
-    // A white hemisphere, seen along its normal: degree 1 says 1/2 + 1/2 of it.
+    // A white hemisphere, seen along its normal: degree 1 gives 1/2 + 1/2.
     const Samples half = test::samples_of(Domain::hemisphere, 1 << 14, [](Vec3) { return Rgb{1, 1, 1}; });
     EXPECT_NEAR(irradiance_over_pi_of_means(means(half), {0, 0, 1}, Domain::hemisphere).g, 1, 1e-3);
 }
 
 TEST(ShBaking, RatiosAreWithinZeroAndOne) {
-    // The extreme is a single light, |L1| = L0: at the ends of the range where it lies on an axis.
+    // The extreme case is a single light, |L1| = L0; on an axis it reaches the ends of the range.
     for (const Vec3 d : {Vec3{1, 0, 0}, {0, -1, 0}, {0, 0, 1}, {0.6f, 0, -0.8f}}) {
         Samples one(1);
         one.set(0, {d, {3, 0.001f, 0}, 1});
@@ -133,7 +133,7 @@ TEST(ShBaking, StoredRatiosAreThoseOfTheStorage) {
         }
 }
 
-/// A texel as a shader reads it, all channels of a texture.
+/// Samples a texel as a shader does: all channels of a texture.
 std::array<float, 4> texel_of(const PackedTexture& texture, std::size_t i) {
     std::array<std::vector<float>, 4> channels;
     std::vector<float*> pointers;
@@ -148,7 +148,7 @@ std::array<float, 4> texel_of(const PackedTexture& texture, std::size_t i) {
 }
 
 TEST(ShBaking, ShadersReadTheIrradianceFromTheStorageOfRatios) {
-    // Light of a wide and of a narrow kind, and the extreme: all of it from one direction.
+    // Wide light, narrow light, and the extreme case: all light from one direction.
     const auto basis = make_basis("sh1").value();
     const auto encoder = make_encoder("moments", basis).value();
     Samples one(1);
@@ -180,7 +180,7 @@ TEST(ShBaking, ShadersReadTheIrradianceFromTheStorageOfRatios) {
                 const float L0 = 0.28209479f * c0[k];
                 const auto of = [&](const Rgb& colour) { return (&colour.r)[k]; };
                 const float E = 2 * static_cast<float>(k_pi) * L0 * (0.5f + of(x) * n.x + of(y) * n.y + of(z) * n.z);
-                // Nine bits of L0, and half a step of each component of L1.
+                // Allow nine bits of L0, and half a step of each component of L1.
                 const float brightest = 0.28209479f * std::max({c0[0], c0[1], c0[2]});
                 const float allowed =
                     2 * static_cast<float>(k_pi) * (1.5f * 0x1p-9f * brightest + L0 * std::sqrt(3.0f) / 255);

@@ -7,8 +7,8 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "coefficients/convention_file.h"
 #include "core/math/harmonics.h"
-#include "report/convention_json.h"
 #include "support.h"
 
 namespace lobelia {

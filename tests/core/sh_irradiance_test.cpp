@@ -1,4 +1,4 @@
-// Evaluators of spherical harmonics: what the models keep, what the windows promise.
+// Tests the irradiance evaluators of spherical harmonics: invariants of the models, guarantees of the windows.
 #include "core/basis/sh/sh_irradiance.h"
 
 #include <gtest/gtest.h>
@@ -92,7 +92,7 @@ TEST(Windows, AreOneAtTheMeanAndFall) {
     EXPECT_NEAR(laplacian_window(3)[3], 0.5, 1e-12);
 }
 
-/// The least of a dense set of directions: slow and obvious.
+/// Minimum over a dense set of directions, the slow and obvious form.
 double least_by_brute_force(std::size_t degree, std::span<const Rgb> c) {
     const SphereRule rule = product_rule(Domain::sphere, 128);
     Colours values(rule.directions.size());
@@ -113,7 +113,7 @@ TEST(LeastValue, EqualsBruteForce) {
         for (std::uint32_t seed = 0; seed < 10; ++seed) {
             const auto c = random_coefficients(degree, seed);
             const double found = least_value(degree, c), expected = least_by_brute_force(degree, c);
-            // Brute force misses the bottom by its own spacing.
+            // The dense set misses the minimum by its spacing.
             EXPECT_LE(found, expected + 1e-5) << degree << " " << seed;
             EXPECT_GE(found, expected - 0.01 * test::norm(c)) << degree << " " << seed;
         }
@@ -143,7 +143,7 @@ TEST(Dering, AnyLightsAreLiftedToZeroByTheLeastWindow) {
     const SphereRule rule = product_rule(Domain::sphere, 64);
     for (std::size_t degree = 1; degree <= 4; ++degree)
         for (std::uint32_t seed = 0; seed < 8; ++seed) {
-            // Three lights of random colours and a little of everything.
+            // Three lights of random colours, and a little of every coefficient.
             std::mt19937 generator(seed);
             const auto uniform = [&] { return static_cast<float>(generator()) * 0x1p-32f; };
             auto c = light_and_constant(degree, {0, 0, 1}, 0, 0.02f);
@@ -190,7 +190,7 @@ TEST(ShModels, BlackAndLightlessAreFinite) {
     const Directions normals = test::random_directions(Domain::sphere, 50, 1);
     for (const auto& name : sh_evaluator_names(1)) {
         EXPECT_EQ(test::largest(read(name.c_str(), 1, std::vector<Rgb>(4), normals)), 0) << name;
-        // A mean of 0 or below with a gradient is no radiance, but noise may bring it.
+        // A mean of 0 or less with a gradient is not a valid radiance, but noise can produce it.
         std::vector<Rgb> c(4);
         c[2] = {1, -1, 2};
         EXPECT_TRUE(test::all_finite(read(name.c_str(), 1, c, normals))) << name;

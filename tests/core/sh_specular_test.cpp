@@ -32,7 +32,7 @@ std::vector<Rgb> power_lobe(std::size_t degree, Vec3 axis) {
 /// Root mean square of the difference to many rays, over that of the truth.
 double gloss_error(std::string_view name, std::size_t degree, std::span<const Rgb> c, const PointsAtAngle& points) {
     const auto basis = make_basis("sh" + std::to_string(degree)).value();
-    return relative_gloss_error(*make_specular(name, basis).value(), *make_sampled_specular(basis, 1024), c, points);
+    return relative_specular_error(*make_specular(name, basis).value(), *make_sampled_specular(basis, 1024), c, points);
 }
 
 const Vec3 k_power_axis = normalize(Vec3{0.4f, -0.7f, 0.5f});

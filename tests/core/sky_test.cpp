@@ -1,4 +1,4 @@
-// The default environment: its sun's energy is kept at any resolution, and it is a plausible, smooth, lit scene.
+// Tests the default sky: its sun keeps its energy at any resolution, and the sky is plausible, smooth and lit.
 #include "lobelia/sky.h"
 
 #include <gtest/gtest.h>
@@ -123,7 +123,7 @@ TEST(Sky, SunIsPlausible) {
         const SunDisc disc = sun_disc({turbidity, elevation, 0, 0.2});
         return luminance(disc.radiance) * disc.solid_angle * k_white_efficacy;
     };
-    // A high sun in clear air gives 100 klx within a few, thick haze and long ways through air much less.
+    // A high sun in clear air gives about 100 klx; thick haze and long paths through air give much less.
     EXPECT_NEAR(illuminance(2, 90), 100e3, 8e3);
     for (double elevation = 5; elevation < 90; elevation += 5) {
         EXPECT_LT(illuminance(3, elevation), illuminance(3, elevation + 5));

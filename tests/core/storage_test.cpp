@@ -344,7 +344,7 @@ TEST(Storages, OnesThatDoNotSuitAreErrorsThatSayWhatDoes) {
     EXPECT_EQ((*found)[1]->name, "bc6h-signed");
     const auto ratios = find_storages(std::array<std::string, 1>{"ratio8"}, traits);
     ASSERT_FALSE(ratios);
-    EXPECT_NE(ratios.error().message.find("what suits here: float32, float16, bc6h-signed"), std::string::npos);
+    EXPECT_NE(ratios.error().message.find("usable with this codec: float32, float16, bc6h-signed"), std::string::npos);
     EXPECT_FALSE(find_storages(std::array<std::string, 1>{"float17"}, traits));
     EXPECT_EQ(default_storages(traits).size(), 1u);
     EXPECT_EQ(default_storages({3, false, true, {1, 2, 2}}).size(), 2u);

@@ -1,5 +1,5 @@
-// Named channels of OpenEXR: what is streamed is what is encoded in memory, every channel finds its way back, and
-// damage is refused before anything is allocated for it.
+// Tests named channels of OpenEXR: streaming and in-memory encoding give the same bytes, every channel reads back, and
+// damaged files are refused before memory is allocated for them.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -58,7 +58,7 @@ std::string staged(const std::filesystem::path& path, const ChannelPlanes& p, co
 
 TEST(ExrChannels, StreamedEqualsEncodedInMemory) {
     const test::TestFolder folder("exr-channels");
-    // Halves go through bands of rows, of which 2^21 of them make one.
+    // Half floats are converted in bands of rows; 2^21 values make one band.
     ChannelPlanes planes(257, 391, 23);
     for (auto& plane : planes.planes) std::fill(plane.begin() + 99, plane.end() - 99, plane[50]);
     for (const auto precision : {ExrOptions::Precision::half, ExrOptions::Precision::full})

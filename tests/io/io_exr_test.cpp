@@ -1,4 +1,5 @@
-// OpenEXR: every compression, pixel type and layout decodes to the same image, and damage never gives a partial one.
+// Tests OpenEXR: every compression, pixel type and layout decodes to the same image, and a damaged file never gives a
+// partial one.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -52,7 +53,7 @@ TEST(ReadExr, RoundTripOfEveryCompressionTypeAndLayout) {
                 const auto compression = static_cast<Imf::Compression>(c);
                 const auto loaded = read(make_exr(image, {.layout = layout, .compression = compression, .type = type}));
                 ASSERT_TRUE(loaded) << message_of(loaded);
-                // Whole numbers survive all but the lossy schemes, which keep about 5 bits of this noise.
+                // Whole numbers survive all lossless schemes; the lossy ones keep about 5 bits of this noise.
                 EXPECT_LE(largest_difference(loaded->image, image), is_lossy(compression, type) ? 2 : 0)
                     << "compression " << c << " type " << type << " layout " << static_cast<int>(layout);
             }

@@ -1,4 +1,4 @@
-// Files are written whole or not at all, and what the writers store the readers return.
+// Tests that files are written completely or not at all, and that readers return what writers stored.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -208,7 +208,7 @@ TEST(ToneCurve, RisesFromBlackToWhite) {
             EXPECT_LE(before = toned(curve, x), 1);
         }
     }
-    // What is brighter than white differs where the curve is not cut off there.
+    // Values brighter than white differ, unless the curve clips them.
     Image image(2, 1);
     image.pixels = {{1.0f, 1.0f, 1.0f}, {2.0f, 2.0f, 2.0f}};
     const auto levels = [&](ToneCurve curve) {

@@ -1,4 +1,4 @@
-// Advice: the front, the budget, the target.
+// Tests the advice: the Pareto front, the budget, the target.
 #include "measure/advice.h"
 
 #include <gtest/gtest.h>
@@ -47,7 +47,7 @@ TEST(Advice, NothingOfTheFrontBeatsAnythingElse) {
         return std::any_of(all.begin(), all.end(), [&](const Candidate& other) { return beats(other, c); });
     };
     for (const Candidate& c : advice->front) EXPECT_FALSE(is_beaten(c));
-    // And each that is left out is beaten, or has its equal there.
+    // Check that each candidate left out is beaten, or has its equal in the front.
     for (const Candidate& c : all)
         EXPECT_TRUE(is_beaten(c) || std::any_of(advice->front.begin(), advice->front.end(), [&](const Candidate& f) {
                         return f.bytes == c.bytes && f.error == c.error && f.nanoseconds == c.nanoseconds;
@@ -75,10 +75,10 @@ TEST(Advice, TheFewestBytesThatReachTheTarget) {
     };
     EXPECT_EQ(recommended({.target = 0.05}), "c");
     EXPECT_EQ(recommended({.target = 0.1}), "b");
-    // The budget rules that out: the least error that it buys.
+    // The budget rules the target out: expect the least error within the budget.
     EXPECT_EQ(recommended({.budget = 10, .target = 0.05}), "b");
     EXPECT_EQ(recommended({.budget = 100, .target = 0.001}), "d");
-    // Nothing reaches it: the least product.
+    // Nothing reaches the target: expect the least product.
     EXPECT_EQ(recommended({.target = 0.001}), "c");
     EXPECT_NE(recommended({.budget = 3}).find("the smallest is a/e/r in s with 4"), std::string::npos);
     EXPECT_FALSE(advise({}));
@@ -92,7 +92,7 @@ TEST(Advice, ScriptsGetAllOfIt) {
     EXPECT_EQ(j["recommended"]["codec"], "c/e/r");
     EXPECT_EQ(j["budget"], 20);
     EXPECT_EQ(j["need"], "irradiance");
-    // By the words of the option.
+    // Check that the names equal those of the option.
     EXPECT_EQ(to_json(*advise(k_four, {.need = Need::specular}))["need"], "specular");
     EXPECT_NE(j["reason"].get<std::string>().find("the smallest within 5 %"), std::string::npos);
     EXPECT_EQ(to_study(*advice, "x").tables.at(0).rows.size(), 4u);

@@ -1,4 +1,4 @@
-// The published tables on ennis.hdr are reproduced to the letter: all twenty figures.
+// Tests that all twenty figures of the published tables on ennis.hdr are reproduced exactly.
 #include "measure/recipe.h"
 
 #include <gtest/gtest.h>

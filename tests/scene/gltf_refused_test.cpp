@@ -20,7 +20,7 @@ using test::scene_of_gltf;
 TEST(BadGltf, ContainerIsNamed) {
     EXPECT_TRUE(says(gltf_error(""), "test.glb: the file is empty"));
     EXPECT_TRUE(says(gltf_error("hello"), "neither a .glb nor a .gltf"));
-    EXPECT_TRUE(says(gltf_error("{\"asset\":"), "not a glTF file: parse error"));
+    EXPECT_TRUE(says(gltf_error("{\"asset\":"), "test.glb: broken JSON at byte"));
     EXPECT_TRUE(says(gltf_error("{}"), "asset.version: missing"));
     EXPECT_TRUE(says(gltf_error(R"({"asset":{"version":"1.0"}})"), "glTF \"1.0\" is not read"));
     EXPECT_TRUE(says(gltf_error(R"({"asset":{"version":"2.0"},"nodes":7})"), "nodes: not an array"));
@@ -55,8 +55,6 @@ TEST(BadGltf, PlaceIsNamed) {
     const auto primitive = [](F& f) -> json& { return f.root["meshes"][0]["primitives"][0]; };
     expect_error("meshes[0].primitives[0].attributes.POSITION: accessor 99 of",
                  [&](F& f) { primitive(f)["attributes"]["POSITION"] = 99; });
-    expect_error("meshes[0].primitives[0].attributes.POSITION: missing",
-                 [&](F& f) { primitive(f)["attributes"].erase("POSITION"); });
     expect_error("meshes[0].primitives[0].indices (accessors[1]): 7 elements from byte 0 on exceed the 12 bytes",
                  [](F& f) { f.root["accessors"][1]["count"] = 7; });
     expect_error("meshes[0].primitives[0].indices: element 2 is vertex 2 of 2",
@@ -65,7 +63,7 @@ TEST(BadGltf, PlaceIsNamed) {
     expect_error("meshes[0].primitives[0].indices: not unsigned integers", [&](F& f) { primitive(f)["indices"] = 0; });
     expect_error("meshes[0].primitives[0].material: 9 of 2", [&](F& f) { primitive(f)["material"] = 9; });
     expect_error("meshes[0].primitives[0].mode: 9", [&](F& f) { primitive(f)["mode"] = 9; });
-    expect_error("accessors[0].count: not a whole number", [](F& f) { f.root["accessors"][0]["count"] = 1e9; });
+    expect_error("accessors[0].count: not a whole number", [](F& f) { f.root["accessors"][0]["count"] = 4.5; });
     expect_error("exceed the 48 bytes", [](F& f) { f.root["accessors"][0]["count"] = 2000000000; });
     expect_error("componentType 5130 is not read", [](F& f) { f.root["accessors"][0]["componentType"] = 5130; });
     expect_error("matrices are not read", [](F& f) { f.root["accessors"][0]["type"] = "MAT4"; });
@@ -140,7 +138,8 @@ TEST(BadGltf, RequiredExtensionsNameTheRemedy) {
     EXPECT_TRUE(says(required("KHR_draco_mesh_compression"), "gltf-transform copy IN.glb OUT.glb"));
     EXPECT_TRUE(says(required("EXT_meshopt_compression"), "gltf-transform copy IN.glb OUT.glb"));
     EXPECT_TRUE(says(required("KHR_texture_basisu"), "gltf-transform ktxdecompress"));
-    EXPECT_TRUE(says(required("EXT_texture_webp"), "gltf-transform png"));
+    EXPECT_TRUE(says(required("EXT_texture_avif"), "gltf-transform png"));
+    EXPECT_EQ(required("EXT_texture_webp"), "read without an error");
     EXPECT_TRUE(says(required("ACME_secret"), "extensionsRequired: ACME_secret is not read"));
     EXPECT_EQ(required("KHR_mesh_quantization"), "read without an error");
 }
@@ -233,6 +232,18 @@ TEST_F(GltfFolder, PathsOutOfTheFolderAreRefused) {
     file_.root["images"][1]["uri"] = "../secret.png";
     buffer("data%20file.bin");
     EXPECT_TRUE(says(error(), "images[1].uri: \"../secret.png\" is refused"));
+}
+
+/// A path may go up and down again as long as it stays inside.
+TEST_F(GltfFolder, PathsThatComeBackAreRead) {
+    for (const char* uri : {"textures/../textures/a.png", "./textures/./a.png", "textures%2F..%2Ftextures/a.png"}) {
+        file_.root["images"][1]["uri"] = uri;
+        EXPECT_EQ(error(), "read without an error") << uri;
+    }
+    for (const char* uri : {"textures/../../scene/textures/a.png", "textures/../.."}) {
+        file_.root["images"][1]["uri"] = uri;
+        EXPECT_TRUE(says(error(), "leads out of the scene's folder")) << uri;
+    }
 }
 
 TEST_F(GltfFolder, LinksOutOfTheFolderAreRefused) {

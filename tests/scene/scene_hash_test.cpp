@@ -76,6 +76,8 @@ TEST(SceneHash, EveryChangeGivesAnother) {
         [](Scene& s) { std::swap(s.textures[0].width, s.textures[0].height); },
         [](Scene& s) { s.textures[0].wrap_u = Texture::Wrap::clamp; },
         [](Scene& s) { s.textures[0].wrap_v = Texture::Wrap::clamp; },
+        [](Scene& s) { s.textures[0].filter = Texture::Filter::nearest; },
+        [](Scene& s) { s.origin[1] = 5; },
         [](Scene& s) { s.lights[0].kind = PunctualLight::Kind::point; },
         [](Scene& s) { s.lights[0].intensity.r = 2; },
         [](Scene& s) { s.lights[0].position.y = 2; },

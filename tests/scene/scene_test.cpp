@@ -1,4 +1,4 @@
-// Embedded scenes: valid, watertight where they should be, with charts that do not overlap.
+// Tests that embedded scenes are valid, watertight where they should be, and have charts that do not overlap.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -63,7 +63,8 @@ TEST(EmbeddedScene, UnknownNameListsTheNames) {
     EXPECT_NE(scene.error().message.find("cornell, cornell-closed, colonnade"), std::string::npos);
 }
 
-/// Edges by the positions of their ends; those of a closed room without its blocks and lamp are shared by two faces.
+/// Counts edges by the positions of their ends. In a closed room without its blocks and lamp, two faces share each
+/// edge.
 TEST(Cornell, ClosedRoomIsWatertight) {
     Scene scene = cornell_scene({.closed = true, .blocks = false});
     std::erase_if(scene.objects, [](const Object& o) { return o.name == "lamp"; });
@@ -101,7 +102,7 @@ TEST(LightmapCheck, FindsOverlapsAndStrays) {
     EXPECT_GT(check_lightmap(world, 0, objects).outside, 0u);
     EXPECT_GT(check_lightmap(world, 0, objects).overlapping, 0u);
 
-    // Each by itself is free of overlaps; two in the same place are not.
+    // Each object alone is free of overlaps; two objects in the same place are not.
     world = make_world(scene);
     for (std::size_t i = 0; i < 4; ++i) world.lightmap_uv[vertex(1) + i] = world.lightmap_uv[vertex(0) + i];
     EXPECT_EQ(check_lightmap(world, 0, 1).overlapping, 0u);
@@ -131,7 +132,7 @@ TEST(ChartPacker, PlacesKeepTheirDistance) {
     EXPECT_FALSE(pack_charts(sizes, 32, k_padding));
 }
 
-/// Each fault is found where it is.
+/// Each fault is reported at its place.
 TEST(CheckScene, NamesTheFault) {
     const auto message = [](auto&& spoil) {
         Scene scene = cornell_scene();

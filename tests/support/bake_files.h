@@ -1,4 +1,4 @@
-// Small bakes with every kind of content, for the tests of what a bake leaves behind.
+// Small bakes with every kind of content, for tests of a bake's files.
 #pragma once
 
 #include <random>

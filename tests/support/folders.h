@@ -1,4 +1,4 @@
-// Folders and files of tests, and disks that are full.
+// Folders and files for tests, and simulated full disks.
 #pragma once
 
 #include <sys/resource.h>
@@ -42,7 +42,7 @@ class TestFolder {
     std::filesystem::path path_;
 };
 
-/// No file may grow beyond `bytes` while this lives: writing fails then, as on a full disk.
+/// Limits the size of files to `bytes` during its lifetime: larger writes fail, as on a full disk.
 class FileSizeLimit {
   public:
     explicit FileSizeLimit(rlim_t bytes) : old_handler_(std::signal(SIGXFSZ, SIG_IGN)) {

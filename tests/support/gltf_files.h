@@ -14,20 +14,20 @@ struct GltfFile {
     nlohmann::json root = {{"asset", {{"version", "2.0"}}}, {"scene", 0}, {"scenes", {{{"nodes", {0}}}}}};
     std::string binary;
 
-    /// The index of a new bufferView of these bytes.
+    /// Adds a bufferView of these bytes; returns its index.
     std::size_t view(std::string_view bytes);
     template <class T>
     std::size_t view(const std::vector<T>& values) {
         return view({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)});
     }
-    /// The index of a new accessor of these values, `components` each.
+    /// Adds an accessor of these values, `components` each; returns its index.
     template <class T>
     std::size_t accessor(const std::vector<T>& values, std::size_t components, bool normalized = false) {
         return accessor(view(values), values.size() / components, component_type(T{}), components, normalized);
     }
     std::size_t accessor(std::size_t view, std::size_t count, int component_type, std::size_t components,
                          bool normalized = false);
-    /// Appends to an array of the root, and returns the index there.
+    /// Appends to an array of the root; returns the index there.
     std::size_t add(const char* array, nlohmann::json entry);
 
     /// As text with the buffer as a data URI, and in binary.
@@ -45,13 +45,13 @@ struct GltfFile {
 /// A square of two triangles on one node, in the xy plane from (0, 0) to (1, 1), facing +z, without a material.
 [[nodiscard]] GltfFile square_file();
 
-/// Much of what a file can hold: textures, all kinds of lights, instances, strips, sparse and quantised accessors.
+/// A file with most kinds of content: textures, all kinds of lights, instances, strips, sparse and quantised accessors.
 [[nodiscard]] GltfFile rich_file();
 
 /// The bytes of a PNG of 2 x 2 texels.
 [[nodiscard]] std::string small_png();
 
-/// The container around any JSON text and binary chunk.
+/// Wraps any JSON text and binary chunk in the .glb container.
 [[nodiscard]] std::string glb_of(std::string json, std::string binary);
 
 }  // namespace lobelia

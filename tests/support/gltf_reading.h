@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "gltf_files.h"
-#include "scene/gltf_read.h"
+#include "lobelia/gltf.h"
 
 namespace lobelia::test {
 

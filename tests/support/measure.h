@@ -1,4 +1,4 @@
-// Irradiance as the path tracer gives it, with its standard error: independent keys, each with samples of its own.
+// Measures irradiance by the path tracer, with its standard error, from independent keys with samples of their own.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ struct MeasureOptions {
     std::uint32_t keys = 64, samples = 256;
 };
 
-/// E at a point of a surface with `normal` (or mean radiance times pi of a probe), the point being lifted first.
+/// E at a surface point with `normal` (for a probe: mean radiance times pi). The point is moved off the surface first.
 inline Measured measure(const PathTracer& tracer, Vec3 on_surface, Vec3 normal, const MeasureOptions& options = {}) {
     const Vec3 position = on_surface + normal * tracer.lift(on_surface);
     std::vector<Receiver> receivers(options.keys);
@@ -44,7 +44,7 @@ inline Measured measure(const PathTracer& tracer, Vec3 on_surface, Vec3 normal, 
     return result;
 }
 
-/// Fails where an estimate is more than `errors` standard errors from the truth, beyond what rounding explains.
+/// Fails if an estimate differs from the expected value by more than `errors` standard errors plus rounding.
 inline void expect_near(const Estimate& found, double truth, double errors, const std::string& what = {}) {
     EXPECT_NEAR(found.mean(), truth, errors * found.standard_error() + 2e-5 * std::abs(truth)) << what;
 }

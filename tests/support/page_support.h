@@ -62,7 +62,7 @@ inline void expect_loads_nothing(const std::string& html) {
 /// Marks are lower-case names, perhaps of files.
 inline void expect_filled(const std::string& html) {
     std::smatch mark;
-    EXPECT_FALSE(std::regex_search(html, mark, std::regex(R"(\{\{[a-z_]+(\.[a-z]+)?\}\})"))) << mark.str();
+    EXPECT_FALSE(std::regex_search(html, mark, std::regex(R"(\{\{[a-z_/]+(\.[a-z]+)?\}\})"))) << mark.str();
     EXPECT_EQ(html.substr(html.size() - 8), "</html>\n");
 }
 

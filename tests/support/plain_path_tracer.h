@@ -1,5 +1,5 @@
-// The path tracer's oracle: slow, plain, in double precision. It tries every triangle, never aims at a source that can
-// be hit by chance, draws from std::mt19937, and samples every reflection by the cosine.
+// The path tracer's oracle: slow, plain, in double precision. It tests every triangle, sends no shadow rays to sources
+// that can be hit by chance, draws from std::mt19937, and samples every reflection by the cosine.
 #pragma once
 
 #include <random>
@@ -29,7 +29,7 @@ class PlainPathTracer {
     PlainPathTracer(const Scene& scene, int bounces, std::uint32_t seed)
         : scene_(scene), world_(make_world(scene)), bounces_(bounces), generator_(seed) {}
 
-    /// One estimate of the irradiance at a point that lies off all surfaces, from the hemisphere about `normal`.
+    /// Returns one estimate of the irradiance at a point off all surfaces, from the hemisphere about `normal`.
     Vec3d irradiance(Vec3d position, Vec3d normal) {
         // A uniform direction of the hemisphere, density 1 / (2 pi).
         Vec3d direction = uniform_direction();
@@ -153,7 +153,7 @@ class PlainPathTracer {
         return sum;
     }
 
-    /// Irradiance by a source that has no size, which chance cannot find.
+    /// Irradiance from a source without size, which no path hits by chance.
     Vec3d punctual(const PunctualLight& light, Vec3d position, Vec3d normal) {
         Vec3d towards = Vec3d(light.direction) * -1;
         double distance = INFINITY, factor = 1;
@@ -206,7 +206,7 @@ class PlainPathTracer {
         return metal * metallic + dielectric * (1 - metallic);
     }
 
-    /// Radiance that arrives from `direction`, where the path first meets `hit`.
+    /// Radiance from `direction`, where the path first hits `hit`.
     Vec3d radiance(Vec3d origin, Vec3d direction, Hit hit) {
         Vec3d sum, throughput{1, 1, 1};
         for (int depth = 0;; ++depth) {
@@ -215,7 +215,7 @@ class PlainPathTracer {
             sum = sum + throughput * emission(hit);
             if (depth == bounces_) return sum;
 
-            // Normals on the side that is seen; the smooth one unless it is seen from behind.
+            // Normals on the visible side; the smooth one unless it faces away.
             const double side = dot(face(hit.triangle), direction) > 0 ? -1 : 1;
             const Vec3d flat = face(hit.triangle) * side, wo = direction * -1;
             const auto& [i, j, k] = world_.triangles[hit.triangle];

@@ -100,6 +100,7 @@ inline void expect_same(const Scene& a, const Scene& b) {
         EXPECT_EQ(a.textures[i].width, b.textures[i].width);
         EXPECT_EQ(a.textures[i].wrap_u, b.textures[i].wrap_u);
         EXPECT_EQ(a.textures[i].wrap_v, b.textures[i].wrap_v);
+        EXPECT_EQ(a.textures[i].filter, b.textures[i].filter);
     }
     ASSERT_EQ(a.lights.size(), b.lights.size());
     for (std::size_t i = 0; i < a.lights.size(); ++i) expect_same(a.lights[i], b.lights[i]);

@@ -47,6 +47,12 @@ inline Mesh with_uv(Mesh mesh, float scale, Vec2 offset) {
     return mesh;
 }
 
+/// The mesh as one that is not baked.
+inline Mesh without_lightmap(Mesh mesh) {
+    mesh.lightmap_uv.clear();
+    return mesh;
+}
+
 /// A n x n grid over the unit square of the xy plane, height(x, y) above it; smooth vertices shared, UVs x and y.
 template <class Height>
 Mesh height_field(std::uint32_t n, const Height& height) {

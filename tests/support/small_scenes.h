@@ -9,7 +9,7 @@
 
 namespace lobelia::test {
 
-/// A material that reflects diffusely alone: no layer over it.
+/// A purely diffuse material, without a specular layer.
 inline Material matte(Rgb color, Rgb emission = {}) {
     Material m;
     m.base_color = color;

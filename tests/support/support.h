@@ -1,4 +1,4 @@
-// What several tests share: sample sets from functions of a direction, real environments, distances, random input.
+// Shared by tests: sample sets from functions of a direction, real environments, distances, random input.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@
 
 namespace lobelia::test {
 
-/// A rotation that has nothing special about it.
+/// A rotation in general position.
 inline Rotation some_rotation() { return rotation_about(normalize(Vec3{0.3f, -0.8f, 0.5f}), 1.1); }
 inline Rotation about_z(double angle) { return rotation_about({0, 0, 1}, angle); }
 
@@ -24,7 +24,7 @@ inline Directions random_directions(Domain domain, std::size_t count, std::uint3
     return uniform_directions(domain, Sequence::random, count, seed);
 }
 
-/// Radiance(direction) at well-spread, shuffled directions, equal shares.
+/// Samples radiance(direction) at well-spread, shuffled directions with equal shares.
 template <class Radiance>
 Samples samples_of(Domain domain, std::size_t count, const Radiance& radiance, Sequence sequence = Sequence::sobol) {
     const Directions directions = uniform_directions(domain, sequence, count, 7);

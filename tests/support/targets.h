@@ -8,7 +8,7 @@
 
 namespace lobelia::test {
 
-/// Lets only `targets` be used while it lives.
+/// Allows only `targets` during its lifetime.
 class OnlyTargets {
   public:
     explicit OnlyTargets(std::int64_t targets) { hwy::SetSupportedTargetsForTest(targets); }
@@ -17,7 +17,7 @@ class OnlyTargets {
     OnlyTargets& operator=(const OnlyTargets&) = delete;
 };
 
-/// Calls `run` with each instruction set that was compiled and that this machine has, and names it where it fails.
+/// Calls `run` with each compiled instruction set that this machine has; a trace names the one that fails.
 template <class Run>
 void on_all_targets(const Run& run) {
     for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {

@@ -1,4 +1,4 @@
-// Tests at a given number of threads.
+// Runs code with a limited number of threads.
 #pragma once
 
 #include <oneapi/tbb/global_control.h>
@@ -7,7 +7,7 @@
 
 namespace lobelia::test {
 
-/// What `run` returns when at most `threads` threads run it.
+/// Returns the result of `run` with at most `threads` threads.
 template <class Run>
 auto with_threads(std::size_t threads, const Run& run) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);

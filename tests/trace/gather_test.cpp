@@ -7,7 +7,7 @@
 #include "bake/place/texels.h"
 #include "measure.h"
 #include "support.h"
-#include "trace/sequence.h"
+#include "core/sample/sequence.h"
 
 namespace lobelia {
 namespace {

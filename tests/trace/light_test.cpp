@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include "core/sample/directions.h"
 #include "small_scenes.h"
 #include "support.h"
-#include "trace/directions.h"
 
 namespace lobelia {
 namespace {

@@ -4,9 +4,9 @@
 #include <gtest/gtest.h>
 
 #include "core/math/colour.h"
+#include "core/sample/directions.h"
 #include "small_scenes.h"
 #include "support.h"
-#include "trace/directions.h"
 #include "trace/texture.h"
 
 namespace lobelia {
@@ -179,6 +179,14 @@ TEST(Textures, WrapAsTheySay) {
     EXPECT_EQ(red(mirror, 0), 1);
     EXPECT_EQ(red(clamp, -5), 1);
     EXPECT_EQ(red(clamp, 5), 0);
+}
+
+TEST(Textures, NearestGivesTheTexelAround) {
+    Texture t = two_by_two(Texture::Wrap::repeat);
+    t.filter = Texture::Filter::nearest;
+    const auto red = [&](float u) { return texture_value(t, {u, 0.01f}, Curve::srgb)[0]; };
+    for (const float u : {0.0f, 0.01f, 0.25f, 0.49f, 1.1f, -0.9f}) EXPECT_EQ(red(u), 1) << u;
+    for (const float u : {0.5f, 0.51f, 0.99f, -0.01f, 1.6f}) EXPECT_EQ(red(u), 0) << u;
 }
 
 TEST(Textures, AnyCoordinateIsSafe) {

@@ -1,4 +1,4 @@
-// The path tracer and its plain twin agree in small random scenes of everything: all kinds of lights and materials,
+// Tests the path tracer against its plain oracle in small random scenes with all kinds of lights and materials,
 // textures, transparency, one-sided and smooth surfaces.
 #include <gtest/gtest.h>
 
@@ -47,7 +47,7 @@ Material random_material(Scene& scene, Chance& chance) {
     if (chance.one_in(3)) {
         m.specular = 0;
     } else {
-        // Not too smooth: the plain twin finds highlights by chance only.
+        // Not too smooth: the oracle finds highlights by chance only.
         m.roughness = chance.in(0.5f, 1);
         m.metallic = chance.one_in(2) ? chance.in(0, 1) : 0.0f;
         m.ior = chance.in(1.2f, 2.2f);
@@ -105,7 +105,7 @@ Scene random_scene(std::uint32_t seed) {
     scene.materials.push_back(test::matte({0.5f, 0.6f, 0.7f}));
     Mesh mesh;
     test::add_box(mesh, 6, {-1, -1, -1}, {1, 1, 1}, test::Facing::inwards);
-    // The floor (triangles 4 and 5) stays as it is; others take any material, and one goes.
+    // The floor (triangles 4 and 5) keeps its material; the others get random ones, and one triangle is removed.
     for (std::size_t t = 6; t < mesh.triangles.size(); ++t) mesh.materials[t] = chance.below(7);
     mesh.triangles.resize(mesh.triangles.size() - 2 * chance.below(2));
     mesh.materials.resize(mesh.triangles.size());

@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include "core/sample/sequence.h"
 #include "measure.h"
 #include "support.h"
-#include "trace/sequence.h"
 
 namespace lobelia {
 namespace {
@@ -222,7 +222,13 @@ TEST(PathTracer, PointAndSpotLightsFollowTheInverseSquare) {
         light.outer_angle = 0.8f;
         const double t = (2 / std::sqrt(d2) - std::cos(0.8)) / (std::cos(0.3) - std::cos(0.8));
         expect_near(found_at({x, 0, 0}), expected * std::pow(std::clamp(t, 0.0, 1.0), 2), 3);
+
+        // Equal angles, the default of three.js: all of the light up to the edge, none beyond.
+        light.inner_angle = light.outer_angle = 0.5f;
+        expect_near(found_at({x, 0, 0}), x < 2 * std::tan(0.5) ? expected : 0, 3);
     }
+    EXPECT_GT(found_at({1.09f, 0, 0}).mean(), 0);
+    EXPECT_EQ(found_at({1.095f, 0, 0}).mean(), 0);
 }
 
 /// Irradiance at p, normal (0, 1, 0), of a square light of half width h at height d above p that shines down

@@ -5,7 +5,6 @@
 
 #include <cmath>
 
-#include "bake/solve/coefficient_blocks.h"
 #include "core/math/quadrature.h"
 #include "lobelia/sampling.h"
 #include "scene/embedded.h"
@@ -300,37 +299,6 @@ TEST(Render, StopsAndTellsItsProgress) {
     const std::atomic<bool> stop = true;
     options.stop = &stop;
     EXPECT_FALSE(render_paths(tracer, scene.cameras.front(), options));
-}
-
-TEST(CoefficientBlocks, AreReadAsTheCodecReadsOne) {
-    std::vector<std::string> names;
-    for (const char* basis : {"sh1", "sh2", "sg12", "sg12h"})
-        for (const auto& evaluator : (*make_basis(basis))->evaluator_names())
-            names.push_back(std::string(basis) + "/moments/" + evaluator);
-    for (const std::string& name : names) {
-        const Codec codec = *make_codec(name);
-        IrradianceReader irradiance(codec.evaluator(), codec.basis().size());
-        RadianceReader radiance(codec.basis(), codec.evaluator().negative());
-        constexpr std::size_t k_count = 19;
-        std::vector<float> block(block_floats(codec.basis().size()));
-        for (std::size_t i = 0; i < block.size(); ++i) block[i] = unit_float(mix(static_cast<std::uint32_t>(i), 7));
-        const Directions directions = uniform_directions(codec.basis().domain(), Sequence::random, k_count, 3);
-        Colours e(k_count), l(k_count), one(1);
-        irradiance.read(block, directions, e);
-        radiance.read(block, directions, l);
-        for (std::size_t j = 0; j < k_count; ++j) {
-            std::vector<Rgb> c(codec.basis().size());
-            for (std::size_t i = 0; i < c.size(); ++i)
-                c[i] = {block[3 * i * k_block_size + j], block[(3 * i + 1) * k_block_size + j],
-                        block[(3 * i + 2) * k_block_size + j]};
-            Directions direction(1);
-            set_entry(direction.view(), 0, direction_at(directions.view(), j));
-            codec.irradiance(c, direction, one);
-            expect_near(colour_at(e.view(), j), colour_at(one.view(), 0), 1e-5f);
-            codec.radiance(c, direction, one);
-            expect_near(colour_at(l.view(), j), colour_at(one.view(), 0), 1e-5f);
-        }
-    }
 }
 
 }  // namespace

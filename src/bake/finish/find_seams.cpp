@@ -20,7 +20,13 @@ SeamSide side_of(const Atlas& atlas, const EdgePiece& piece) {
         const float size = length(n);
         return size > 0 ? n * (1 / size) : n;
     };
-    return {piece.triangle, {end(piece.at_low), end(piece.at_high)}, {normal(piece.at_low), normal(piece.at_high)}};
+    const auto position = [&](float at) {
+        return world.positions[vertices[first]] * (1 - at) + world.positions[vertices[second]] * at;
+    };
+    return {piece.triangle,
+            {end(piece.at_low), end(piece.at_high)},
+            {position(piece.at_low), position(piece.at_high)},
+            {normal(piece.at_low), normal(piece.at_high)}};
 }
 
 /// Whether both are one and the same edge on the page: the inside of a chart.

@@ -13,7 +13,8 @@ namespace lobelia {
 /// An edge, or a part of one, as it lies on a page, its ends in the order of their places in the world.
 struct SeamSide {
     std::uint32_t triangle = 0;
-    std::array<Vec2, 2> ends;  ///< [texels]
+    std::array<Vec2, 2> ends;       ///< [texels]
+    std::array<Vec3, 2> positions;  ///< of the ends in the world
     std::array<Vec3, 2> normals;
     [[nodiscard]] double texels() const { return std::hypot(ends[1].x - ends[0].x, ends[1].y - ends[0].y); }
 };

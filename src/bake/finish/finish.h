@@ -16,10 +16,11 @@ struct Guides {
 /// Positions and normals as make_receivers gives them.
 [[nodiscard]] Guides make_guides(const Atlas& atlas, const TexelMap& map);
 
-/// Makes the two sides of each seam agree: where an edge of a triangle, or the part of it at which a shorter one lies,
-/// lies in two places (of one object or of two that touch), the bilinearly filtered values along it, as they are read
+/// Makes the two sides of each seam agree: where an edge of a triangle, or the part of it along a shorter edge, lies in
+/// two places on the pages (of one object or of two that touch), the bilinearly filtered values along both, as they are
 /// after `dilate`. Least squares over the texels near seams: |difference along the seam|^2 + weight |change|^2, one
-/// sparse system (Eigen) for all channels of all pages. Positions within `tolerance` [m] and normals within about 10
+/// sparse system (Eigen) for each channel of all pages. Each texel stays within the range of the texels that its seams
+/// read, so that light that was never negative stays so. Positions within `tolerance` [m] and normals within about 10
 /// degrees count as the same edge.
 struct SeamOptions {
     float weight = 0.05f;
@@ -30,8 +31,14 @@ struct SeamReport {
     std::size_t edges = 0;         ///< pairs, of edges or of parts, that were joined
     double before = 0, after = 0;  ///< RMS difference of the irradiance channels along them
 };
+/// What must not be mixed: seams stay open where a surface stands on them, and texels whose light was not measured
+/// where they lie take no part.
+struct SeamSurroundings {
+    const PathTracer* tracer = nullptr;                ///< null: nothing stands on seams
+    std::vector<std::vector<std::uint8_t>> displaced;  ///< as displaced_texels gives it; empty: none
+};
 SeamReport close_seams(std::span<LightmapPage> pages, const PageChannels& channels, const Atlas& atlas,
-                       const SeamOptions& options = {});
+                       const SeamOptions& options = {}, const SeamSurroundings& around = {});
 
 /// Smooths noise within each chart, never across charts: an edge-avoiding filter guided by position and normal and
 /// scaled by the standard error that the bake measured. Coefficients are divided by the texel's mean radiance (sum of

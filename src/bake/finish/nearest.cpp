@@ -6,8 +6,9 @@
 
 namespace lobelia {
 
-NearestTexels::NearestTexels(const LightmapPage& page, std::size_t radius, float least_validity)
-    : page_(page), least_validity_(least_validity) {
+NearestTexels::NearestTexels(const LightmapPage& page, std::size_t radius, float least_validity,
+                             std::span<const std::uint8_t> excluded)
+    : page_(page), excluded_(excluded), least_validity_(least_validity) {
     const int r = static_cast<int>(std::min(radius, std::max(page.width, page.height)));
     for (int y = -r; y <= r; ++y)
         for (int x = -r; x <= r; ++x)
@@ -19,7 +20,7 @@ NearestTexels::NearestTexels(const LightmapPage& page, std::size_t radius, float
 
 void NearestTexels::find(std::size_t i, std::vector<std::uint32_t>& out) const {
     out.clear();
-    if (is_usable(page_, i, least_validity_)) {
+    if (usable(i)) {
         out.push_back(static_cast<std::uint32_t>(i));
         return;
     }
@@ -36,8 +37,7 @@ void NearestTexels::find(std::size_t i, Charts charts, std::vector<std::uint32_t
         const int x = x0 + offset.x, y = y0 + offset.y;
         if (x < 0 || y < 0 || x >= width || y >= height) continue;
         const std::size_t j = static_cast<std::size_t>(y) * page_.width + static_cast<std::size_t>(x);
-        if (!is_usable(page_, j, least_validity_) || (charts == Charts::own && page_.chart[j] != page_.chart[i]))
-            continue;
+        if (!usable(j) || (charts == Charts::own && page_.chart[j] != page_.chart[i])) continue;
         out.push_back(static_cast<std::uint32_t>(j));
         squared = offset.squared;
     }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "lobelia/lightmap.h"
@@ -15,8 +16,9 @@ namespace lobelia {
 
 class NearestTexels {
   public:
-    /// The page must outlive it.
-    NearestTexels(const LightmapPage& page, std::size_t radius, float least_validity);
+    /// Texels marked in `excluded` (one byte per texel; empty: none) are not usable. The arguments must outlive it.
+    NearestTexels(const LightmapPage& page, std::size_t radius, float least_validity,
+                  std::span<const std::uint8_t> excluded = {});
 
     /// Replaces `out` by the texels whose mean fills texel i: all usable ones at the least distance, of its own chart
     /// if it has one and there are any. Itself if it is usable; none if there are none within the radius.
@@ -29,7 +31,12 @@ class NearestTexels {
     enum class Charts { own, any };
     void find(std::size_t i, Charts charts, std::vector<std::uint32_t>& out) const;
 
+    [[nodiscard]] bool usable(std::size_t i) const {
+        return is_usable(page_, i, least_validity_) && (excluded_.empty() || excluded_[i] == 0);
+    }
+
     const LightmapPage& page_;
+    std::span<const std::uint8_t> excluded_;
     float least_validity_;
     std::vector<Offset> offsets_;  ///< by distance
 };

@@ -5,40 +5,45 @@
 #include <Eigen/SparseCore>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "bake/finish/find_seams.h"
 #include "bake/finish/finish.h"
 #include "bake/finish/nearest.h"
+#include "bake/finish/seam_walls.h"
 
 namespace lobelia {
 namespace {
 
-/// Points along a seam [per texel], and of all seams together at most.
+/// Points along a seam [per texel], and the maximum over all seams.
 constexpr double k_points_per_texel = 2;
 constexpr double k_most_points = 1 << 21;
-/// So much of a footprint must be there for its point to count.
+/// Points whose footprint is covered to a smaller fraction are ignored.
 constexpr float k_least_footprint = 0.25f;
 
-/// A texel of all pages, and how much of it counts.
+/// A texel, numbered through all pages, and its weight.
 struct Share {
     std::uint64_t texel = 0;
     float weight = 0;
 };
 
-/// Reads what bilinear filtering will read once texels are dilated, as sums over texels that hold something.
+/// Values of bilinear filtering after dilation, as sums over texels that hold light.
 class Footprints {
   public:
-    Footprints(std::span<const LightmapPage> pages, float least_validity) : pages_(pages) {
-        for (const LightmapPage& page : pages) {
-            nearest_.emplace_back(page, 2, least_validity);
-            first_.push_back(first_.back() + page.size());
+    Footprints(std::span<const LightmapPage> pages, float least_validity, const SeamSurroundings& around)
+        : pages_(pages) {
+        for (std::size_t p = 0; p < pages.size(); ++p) {
+            const std::span<const std::uint8_t> displaced =
+                around.displaced.empty() ? std::span<const std::uint8_t>() : around.displaced[p];
+            nearest_.emplace_back(pages[p], 2, least_validity, displaced);
+            first_.push_back(first_.back() + pages[p].size());
         }
     }
 
-    /// Appends the shares of the point `p` as chart `chart` (of a triangle) is read there; their weights sum to
-    /// `total`. False, and nothing, where too little of it is there.
+    /// Appends the shares of the value of chart `chart` at point `p`; their weights sum to `total`. Returns false, and
+    /// appends nothing, where too little of the footprint holds light.
     bool append(std::size_t page, std::uint32_t chart, Vec2 p, float total, std::vector<Share>& out);
-    /// The page of a texel, and which it is there.
+    /// Returns the page of a texel, and its number there.
     [[nodiscard]] std::pair<std::size_t, std::size_t> place(std::uint64_t texel) const {
         const auto page = std::upper_bound(first_.begin(), first_.end(), texel) - first_.begin() - 1;
         return {static_cast<std::size_t>(page), texel - first_[static_cast<std::size_t>(page)]};
@@ -79,7 +84,7 @@ bool Footprints::append(std::size_t page_index, std::uint32_t chart, Vec2 p, flo
 
 using SparseMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
-/// Differences along all seams as rows over the texels near them, and below these one row for the change of each.
+/// Differences along all seams as rows over the texels near them; below, one row for the change of each texel.
 struct SeamSystem {
     std::vector<std::uint64_t> texels;  ///< the unknowns
     std::vector<double> weight;         ///< of each difference: the square of its row's scale
@@ -93,29 +98,48 @@ struct SeamDifferences {
     std::vector<double> weight;  ///< the texels of the seam that each stands for
 };
 
-SeamDifferences find_differences(const Atlas& atlas, std::span<const Seam> seams, Footprints& footprints) {
+/// A point of a seam, at the fraction `s` of its length, and the length that it stands for [texels].
+struct SeamPoint {
+    const Seam* seam = nullptr;
+    float s = 0;
+    double weight = 0;
+};
+
+/// Returns points along all seams, without those where something stands on the seam.
+std::vector<SeamPoint> points_along(const Atlas& atlas, std::span<const Seam> seams, const PathTracer* tracer) {
     double length = 0;
     for (const Seam& seam : seams) length += seam.texels();
     const double per_texel = std::min(k_points_per_texel, k_most_points / std::max(length, 1.0));
+    std::vector<SeamPoint> points;
+    for (const Seam& seam : seams) {
+        const auto count = static_cast<std::size_t>(std::ceil(std::max(1.0, seam.texels() * per_texel)));
+        for (std::size_t i = 0; i < count; ++i)
+            points.push_back({&seam, (static_cast<float>(i) + 0.5f) / static_cast<float>(count),
+                              seam.texels() / static_cast<double>(count)});
+    }
+    if (tracer == nullptr) return points;
+    tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t i) {
+        if (is_walled(*tracer, atlas, *points[i].seam, points[i].s)) points[i].seam = nullptr;
+    });
+    std::erase_if(points, [](const SeamPoint& p) { return p.seam == nullptr; });
+    return points;
+}
+
+SeamDifferences find_differences(const Atlas& atlas, std::span<const SeamPoint> points, Footprints& footprints) {
     SeamDifferences result;
     const auto& charts = atlas.chart_of_triangle();
-    for (const Seam& seam : seams) {
-        const auto points = static_cast<std::size_t>(std::ceil(std::max(1.0, seam.texels() * per_texel)));
-        const double weight = seam.texels() / static_cast<double>(points);
-        for (std::size_t i = 0; i < points; ++i) {
-            const float s = (static_cast<float>(i) + 0.5f) / static_cast<float>(points);
-            const auto append = [&](const SeamSide& side, double scale) {
-                return footprints.append(atlas.page_of(side.triangle), charts[side.triangle],
-                                         side.ends[0] * (1 - s) + side.ends[1] * s, static_cast<float>(scale),
-                                         result.shares);
-            };
-            if (!append(seam.a, std::sqrt(weight)) || !append(seam.b, -std::sqrt(weight))) {
-                result.shares.resize(result.first.back());
-                continue;
-            }
-            result.first.push_back(result.shares.size());
-            result.weight.push_back(weight);
+    for (const auto& [seam, s, weight] : points) {
+        const auto append = [&](const SeamSide& side, double scale) {
+            return footprints.append(atlas.page_of(side.triangle), charts[side.triangle],
+                                     side.ends[0] * (1 - s) + side.ends[1] * s, static_cast<float>(scale),
+                                     result.shares);
+        };
+        if (!append(seam->a, std::sqrt(weight)) || !append(seam->b, -std::sqrt(weight))) {
+            result.shares.resize(result.first.back());
+            continue;
         }
+        result.first.push_back(result.shares.size());
+        result.weight.push_back(weight);
     }
     return result;
 }
@@ -148,6 +172,29 @@ SeamSystem make_system(SeamDifferences differences, float change_weight) {
     return system;
 }
 
+/// The least and the largest value that each unknown may take: those of the texels that its differences read. Least
+/// squares overshoot; within these bounds light that was never negative stays so.
+struct SeamBounds {
+    std::vector<double> least, most;
+};
+
+SeamBounds bounds_of(const SeamSystem& system, const Eigen::VectorXd& values) {
+    SeamBounds bounds{{values.begin(), values.end()}, {values.begin(), values.end()}};
+    for (Eigen::Index row = 0; row < static_cast<Eigen::Index>(system.weight.size()); ++row) {
+        double least = std::numeric_limits<double>::infinity(), most = -least;
+        for (SparseMatrix::InnerIterator entry(system.matrix, row); entry; ++entry) {
+            least = std::min(least, values[entry.col()]);
+            most = std::max(most, values[entry.col()]);
+        }
+        for (SparseMatrix::InnerIterator entry(system.matrix, row); entry; ++entry) {
+            const auto i = static_cast<std::size_t>(entry.col());
+            bounds.least[i] = std::min(bounds.least[i], least);
+            bounds.most[i] = std::max(bounds.most[i], most);
+        }
+    }
+    return bounds;
+}
+
 /// Sums of squared differences before and after, each point by its weight.
 struct Squared {
     double before = 0, after = 0;
@@ -169,26 +216,34 @@ Squared close(std::span<LightmapPage> pages, const Footprints& footprints, const
     solver.setTolerance(1e-6);
     solver.setMaxIterations(300);
     solver.compute(system.matrix);
-    const Eigen::VectorXd change = solver.solve(wanted);
-    const double after = (system.matrix * change - wanted).head(points).squaredNorm();
+    Eigen::VectorXd change = solver.solve(wanted);
+
+    // Keep to the bounds, which are floats: a value within them is unchanged.
+    const SeamBounds bounds = bounds_of(system, values);
     for (std::size_t i = 0; i < system.texels.size(); ++i) {
         const auto [page, texel] = footprints.place(system.texels[i]);
-        pages[page].planes[channel][texel] += static_cast<float>(change[static_cast<Eigen::Index>(i)]);
+        const auto k = static_cast<Eigen::Index>(i);
+        float& value = pages[page].planes[channel][texel];
+        value = std::clamp(value + static_cast<float>(change[k]), static_cast<float>(bounds.least[i]),
+                           static_cast<float>(bounds.most[i]));
+        change[k] = value - values[k];
     }
-    return {before, after};
+    return {before, (system.matrix * change - wanted).head(points).squaredNorm()};
 }
 
 }  // namespace
 
 SeamReport close_seams(std::span<LightmapPage> pages, const PageChannels& channels, const Atlas& atlas,
-                       const SeamOptions& options) {
+                       const SeamOptions& options, const SeamSurroundings& around) {
     const std::vector<Seam> seams = find_seams(atlas, options.tolerance);
     SeamReport report{.edges = seams.size()};
-    Footprints footprints(pages, options.least_validity);
-    const SeamSystem system = make_system(find_differences(atlas, seams, footprints), std::max(options.weight, 1e-6f));
+    Footprints footprints(pages, options.least_validity, around);
+    const SeamSystem system =
+        make_system(find_differences(atlas, points_along(atlas, seams, around.tracer), footprints),
+                    std::max(options.weight, 1e-6f));
     if (system.weight.empty()) return report;
 
-    // All but the error, which is no light.
+    // Close all channels but the error, which is not light.
     std::vector<Squared> squared(channels.count());
     tbb::parallel_for(std::size_t{0}, channels.count(), [&](std::size_t channel) {
         if (channel != channels.error()) squared[channel] = close(pages, footprints, system, channel);

@@ -4,7 +4,7 @@
 #include <cassert>
 
 #include "bake/place/texels.h"
-#include "trace/directions.h"
+#include "core/sample/directions.h"
 #include "trace/material.h"
 
 namespace lobelia {

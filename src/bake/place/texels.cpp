@@ -1,6 +1,8 @@
 // Start points and normals of texels.
 #include "bake/place/texels.h"
 
+#include <oneapi/tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cassert>
 
@@ -118,6 +120,22 @@ void make_receivers(const Atlas& atlas, const TexelMap& map, std::size_t begin, 
         tile.make(i, push_out, std::span(out).subspan(i - begin, count));
         i += count;
     }
+}
+
+std::vector<std::vector<std::uint8_t>> displaced_texels(const Atlas& atlas, const TexelMap& map,
+                                                        const PathTracer& tracer) {
+    std::vector<std::vector<std::uint8_t>> displaced(atlas.pages(),
+                                                     std::vector<std::uint8_t>(atlas.width() * atlas.height()));
+    tbb::parallel_for(std::size_t{1}, map.first_of_tile.size(), [&](std::size_t tile) {
+        std::vector<Receiver> receivers;
+        const std::size_t begin = map.first_of_tile[tile - 1];
+        make_receivers(atlas, map, begin, map.first_of_tile[tile], tracer, Switch::on, receivers);
+        for (std::size_t i = 0; i < receivers.size(); ++i) {
+            const CoveredTexel& at = map.texels[begin + i];
+            displaced[at.page][at.y * atlas.width() + at.x] = receivers[i].moved || receivers[i].buried;
+        }
+    });
+    return displaced;
 }
 
 }  // namespace lobelia

@@ -5,8 +5,8 @@
 #include "bake/place/texels.h"
 #include "bake/render/render.h"
 #include "bake/render/render_tiles.h"
-#include "bake/solve/coefficient_blocks.h"
-#include "trace/directions.h"
+#include "core/sample/directions.h"
+#include "lobelia/evaluate.h"
 
 namespace lobelia {
 namespace {
@@ -55,9 +55,7 @@ class BakeWorker {
   public:
     BakeWorker(const PathTracer& tracer, const CameraView& view, const BakedLight& light)
         : tracer_(&tracer), view_(&view), light_(&light), paths_(tracer) {
-        if (!light.codec) return;
-        irradiance_.emplace(light.codec->evaluator(), light.channels.coefficients);
-        radiance_.emplace(light.codec->basis(), light.codec->evaluator().negative());
+        if (light.codec) block_.resize(3 * light.channels.coefficients * k_block_size);
     }
 
     void shade(std::span<const PathStart> rays, std::span<const std::uint32_t> of_ray, RenderTile& tile) {
@@ -82,11 +80,9 @@ class BakeWorker {
     const CameraView* view_;
     const BakedLight* light_;
     PathShader paths_;
-    std::optional<IrradianceReader> irradiance_;
-    std::optional<RadianceReader> radiance_;
     std::vector<Sight> sights_;
     std::vector<BakedPoint> points_;
-    std::vector<float> block_;
+    std::vector<float> block_;  ///< coefficients of points_: a plane of k_block_size for each channel
 };
 
 Taps BakeWorker::taps(const PathTracer::Hit& hit) const {
@@ -126,7 +122,7 @@ BakedPoint BakeWorker::point(const Sight& sight, std::uint32_t of_ray) const {
 /// Evaluates the irradiance and the radiance from the mirrored direction at each point.
 void BakeWorker::evaluate(MutableColourView irradiance, MutableColourView mirrored) {
     const std::size_t first = light_->channels.irradiance(0);
-    if (!irradiance_) {
+    if (!light_->codec) {
         for (std::size_t j = 0; j < points_.size(); ++j) {
             const Taps& t = points_[j].taps;
             const Rgb e{t.value(first), t.value(first + 1), t.value(first + 2)};
@@ -135,10 +131,12 @@ void BakeWorker::evaluate(MutableColourView irradiance, MutableColourView mirror
         }
         return;
     }
-    block_.resize(block_floats(light_->channels.coefficients));
-    for (std::size_t plane = 0; plane < 3 * light_->channels.coefficients; ++plane)
-        for (std::size_t j = 0; j < points_.size(); ++j)
-            block_[plane * k_block_size + j] = points_[j].taps.value(plane);
+    std::vector<const float*> c(3 * light_->channels.coefficients);
+    for (std::size_t plane = 0; plane < c.size(); ++plane) {
+        float* const to = block_.data() + plane * k_block_size;
+        for (std::size_t j = 0; j < points_.size(); ++j) to[j] = points_[j].taps.value(plane);
+        c[plane] = to;
+    }
     Directions normals(points_.size()), directions(points_.size());
     for (std::size_t j = 0; j < points_.size(); ++j) {
         const BakedPoint& p = points_[j];
@@ -147,8 +145,9 @@ void BakeWorker::evaluate(MutableColourView irradiance, MutableColourView mirror
         set_entry(directions.view(), j,
                   light_->frame == Frame::tangent ? wi : Axes(tangent_from_world(p.normal)).world(wi));
     }
-    irradiance_->read(block_, normals, irradiance);
-    radiance_->read(block_, directions, mirrored);
+    lobelia::irradiance(light_->codec->evaluator(), c, normals, irradiance);
+    radiance(light_->codec->basis(), c, directions, mirrored);
+    if (light_->codec->evaluator().negative() == Negative::clamped) clamp_negative(mirrored);
 }
 
 void BakeWorker::add_points(RenderTile& tile) {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cassert>
 
-#include "bake/solve/coefficient_blocks.h"
+#include "lobelia/evaluate.h"
 
 namespace lobelia {
 std::vector<Rgb> page_irradiance(const LightmapPage& page, const PageChannels& channels, std::span<const Vec3> normals,
@@ -19,12 +19,10 @@ std::vector<Rgb> page_irradiance(const LightmapPage& page, const PageChannels& c
         const auto is_baked = [&](std::size_t i) { return !(normals[i] == Vec3{}); };
         for (std::size_t i = begin; i < end; ++i)
             set_entry(directions.view(), i - begin, frame == Frame::world && is_baked(i) ? normals[i] : Vec3{0, 0, 1});
-        std::vector<float> block(block_floats(channels.coefficients));
-        for (std::size_t plane = 0; plane < 3 * channels.coefficients; ++plane)
-            std::copy_n(page.planes[plane].begin() + static_cast<std::ptrdiff_t>(begin), end - begin,
-                        block.begin() + static_cast<std::ptrdiff_t>(plane * k_block_size));
+        std::vector<const float*> c(3 * channels.coefficients);
+        for (std::size_t plane = 0; plane < c.size(); ++plane) c[plane] = page.planes[plane].data() + begin;
         Colours values(end - begin);
-        IrradianceReader(evaluator, channels.coefficients).read(block, directions, values);
+        irradiance(evaluator, c, directions, values);
         for (std::size_t i = begin; i < end; ++i)
             if (is_baked(i)) result[i] = colour_at(values.view(), i - begin);
     };

@@ -1,6 +1,8 @@
 // A bake as a folder: all files are written together, and read again.
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "bake/write/bake_fields.h"
 #include "bake/write/files_together.h"
 #include "bake/write/manifest.h"
@@ -19,6 +21,38 @@ constexpr const char* k_scene_name = "scene.glb";
 constexpr const char* k_environment_name = "environment.exr";
 constexpr const char* k_probes_name = "probes.json";
 constexpr const char* k_probe_coefficients_name = "probes.bin";
+
+/// Largest finite value of a half float.
+constexpr float k_largest_half = 65504;
+
+/// Finds the largest magnitude on all pages. An error for a value that is not finite.
+Result<float> largest_value(const Bake& bake) {
+    const auto names = bake.channels().names();
+    float largest = 0;
+    for (std::size_t p = 0; p < bake.pages.size(); ++p)
+        for (std::size_t k = 0; k < bake.pages[p].planes.size(); ++k)
+            for (std::size_t i = 0; i < bake.pages[p].size(); ++i) {
+                const float value = std::abs(bake.pages[p].planes[k][i]);
+                if (!std::isfinite(value))
+                    return Error{fmt::format(
+                        "page {}, channel {}, x = {}, y = {}: {} cannot be stored; is the light "
+                        "too bright for float32?",
+                        p, names[k], i % bake.pages[p].width, i / bake.pages[p].width, bake.pages[p].planes[k][i])};
+                largest = std::max(largest, value);
+            }
+    return largest;
+}
+
+Status choose_precision(const Bake& bake, Manifest& manifest) {
+    const auto largest = largest_value(bake);
+    if (!largest) return largest.error();
+    if (manifest.precision == Precision::full || *largest <= k_largest_half) return Done{};
+    manifest.precision = Precision::full;
+    manifest.warnings.push_back(
+        fmt::format("values up to {:g} exceed the range of half floats ({:g}): the pages are written as float",
+                    *largest, k_largest_half));
+    return Done{};
+}
 
 Status add_pages(FilesTogether& files, const Bake& bake, const PageTextures& textures, Manifest& manifest) {
     const std::string origin = fmt::format("{}, {} frame", manifest.options.codec,
@@ -70,7 +104,8 @@ Result<Manifest> write_bake(const fs::path& folder, const Bake& bake, const Writ
     auto files = FilesTogether::in(folder);
     if (!files) return files.error();
     Manifest manifest = bake.manifest;
-    auto status = add_pages(*files, bake, *textures, manifest);
+    auto status = choose_precision(bake, manifest);
+    if (status) status = add_pages(*files, bake, *textures, manifest);
     if (status) status = add_probes(*files, bake, manifest);
     if (status && options.scene != nullptr) status = add_scene(*files, *options.scene, manifest);
     if (status) status = files->add_text(k_manifest_name, to_json_text(manifest));

@@ -6,6 +6,7 @@
 #include "bake/session/checkpoint.h"
 #include "bake/write/bake_fields.h"
 #include "bake/write/page_files.h"
+#include "bake/write/stored_codec.h"
 #include "io/folders.h"
 #include "io/read_file.h"
 
@@ -113,6 +114,8 @@ Result<BakeJob> read_job(const std::filesystem::path& folder) {
         BakeJob job;
         JsonFieldReader reader(top);
         fields(reader, job);
+        for (const std::string& codec : {job.bake.codec, job.probes.value_or(ProbeOptions()).codec})
+            if (const auto name = stored_codec_name(codec); !codec.empty() && !name) top.refuse(name.error().message);
         return job;
     });
 }

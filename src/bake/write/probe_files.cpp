@@ -1,6 +1,8 @@
 // Probes as two files: probes.json says what there is, probes.bin holds the coefficients.
 #include "bake/write/probe_files.h"
 
+#include "bake/write/stored_codec.h"
+
 #include <fmt/format.h>
 
 #include <bit>
@@ -61,7 +63,7 @@ std::vector<float> read_shares(const JsonPlace& place, std::size_t size) {
 
 void read_codec(const JsonPlace& top, ProbeSet& probes) {
     probes.codec = top.at("codec").text();
-    const auto name = parse_codec_name(probes.codec);
+    const auto name = stored_codec_name(probes.codec);
     if (!name) top.at("codec").refuse(name.error().message);
     const auto basis = make_basis(name->basis);
     if (!basis) top.at("codec").refuse(basis.error().message);
@@ -134,6 +136,9 @@ std::string to_json_text(const ProbeSet& probes, std::string_view binary_file) {
 Status write_probe_coefficients(StagedFile& file, const ProbeSet& probes) {
     assert(probes.coefficients.size() == probes.size() * probes.coefficients_per_probe);
     static_assert(sizeof(Rgb) == 3 * sizeof(float));
+    for (const Rgb& c : probes.coefficients)
+        if (!std::isfinite(c.r) || !std::isfinite(c.g) || !std::isfinite(c.b))
+            return Error{"probes: a coefficient is not finite; is the light too bright for float32?"};
     return file.write(std::as_bytes(std::span(probes.coefficients)));
 }
 

@@ -8,6 +8,7 @@
 #include "bake/write/bake_fields.h"
 #include "bake/write/manifest.h"
 #include "bake/write/page_files.h"
+#include "bake/write/stored_codec.h"
 #include "core/storage/layout_text.h"
 #include "io/read_file.h"
 #include "lobelia/storage.h"
@@ -37,7 +38,7 @@ void read_codec(const JsonPlace& codec, Manifest& m) {
         if (stated != 0) codec.at("coefficients").refuse("there is no codec, so there can be no coefficients");
         return;
     }
-    const auto name = parse_codec_name(m.options.codec);
+    const auto name = stored_codec_name(m.options.codec);
     if (!name) codec.at("name").refuse(name.error().message);
     const auto basis = make_basis(name->basis);
     if (!basis) codec.at("name").refuse(basis.error().message);

@@ -6,7 +6,7 @@
 #include <cassert>
 #include <nlohmann/json.hpp>
 
-#include "scene/gltf_write.h"
+#include "lobelia/gltf.h"
 
 namespace lobelia {
 

@@ -136,6 +136,8 @@ class Punctual final : public Evaluator {
 
 }  // namespace
 
+std::shared_ptr<const FittedBasis> ambient_highlight() { return std::make_shared<AmbientHighlight>(); }
+
 Result<std::shared_ptr<const Basis>> AmbientHighlight::from_name(std::string_view name) {
     if (name != "ahd") return std::shared_ptr<const Basis>();
     return std::shared_ptr<const Basis>(std::make_shared<AmbientHighlight>());
@@ -166,13 +168,6 @@ void AmbientHighlight::radiance(std::span<const Rgb> c, DirectionView directions
 }
 
 std::string AmbientHighlight::description() const { return "ambient light and one directional light"; }
-
-BasisNotes AmbientHighlight::notes() const {
-    return {"Ambient and highlight direction",
-            "E(n) = pi A + H max(0, n . d); as radiance, A + 9/2pi H max(0, w . d)^8",
-            "one dominant light; highlights of glossy surfaces, for which it has a direction and a colour; 9 floats",
-            "two lights; soft light from one side; filtering, where neighbours' directions differ"};
-}
 
 std::shared_ptr<const Evaluator> AmbientHighlight::evaluator(std::string_view name) const {
     return name == "punctual" ? std::make_shared<Punctual>() : nullptr;

@@ -2,8 +2,7 @@
 // Mitchell et al. 2006 and Hooker 2016 tell of its use in lightmaps; the fit is ours.
 #pragma once
 
-#include "lobelia/basis.h"
-#include "lobelia/result.h"
+#include "lobelia/bases.h"
 
 namespace lobelia {
 
@@ -25,7 +24,6 @@ class AmbientHighlight final : public FittedBasis {
     void fit(std::span<const Rgb> accumulated, std::span<Rgb> c) const override;
     [[nodiscard]] std::string name() const override { return "ahd"; }
     [[nodiscard]] std::string description() const override;
-    [[nodiscard]] BasisNotes notes() const override;
     [[nodiscard]] Domain domain() const override { return Domain::sphere; }
     /// punctual: E as above, exactly.
     [[nodiscard]] std::vector<std::string> evaluator_names() const override { return {"punctual"}; }

@@ -109,13 +109,6 @@ std::string AmbientCubeIrradiance::description() const {
     return "ambient cube of irradiances: six colours, interpolated by squared cosines";
 }
 
-BasisNotes AmbientCubeIrradiance::notes() const {
-    return {"Ambient cube of irradiances",
-            "E(n) = sum of n_i^2 C_i over the three sides that n faces; L(w) is read as E(w) / pi",
-            "characters lit by probes: six colours, three of them read for a normal, never negative",
-            "irradiance between the axes; the radiance cube with its exact irradiance is better for the same floats"};
-}
-
 std::shared_ptr<const Evaluator> AmbientCubeIrradiance::evaluator(std::string_view name) const {
     return name == "squares" ? std::make_shared<Squares>(cube_from_domain_) : nullptr;
 }

@@ -21,7 +21,6 @@ class AmbientCubeIrradiance final : public FittedBasis {
     void fit(std::span<const Rgb> accumulated, std::span<Rgb> c) const override;
     [[nodiscard]] std::string name() const override { return "ambient-cube-e"; }
     [[nodiscard]] std::string description() const override;
-    [[nodiscard]] BasisNotes notes() const override;
     [[nodiscard]] Domain domain() const override { return Domain::sphere; }
     [[nodiscard]] std::vector<std::string> evaluator_names() const override { return {"squares"}; }
     [[nodiscard]] std::shared_ptr<const Evaluator> evaluator(std::string_view name) const override;

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "core/basis/icosahedron.h"
+#include "core/basis/turned_block.h"
 #include "core/math/dense.h"
 #include "core/math/harmonics.h"
 #include "core/math/quadrature.h"
@@ -105,12 +106,16 @@ std::array<std::array<float, 3>, 3> patch_weights(const Face& face, Vec3 w) {
     return weights;
 }
 
+void clear(float* rows, std::size_t count, std::size_t size) {
+    for (std::size_t i = 0; i < count; ++i) std::fill_n(rows + i * k_block_size, size, 0.0f);
+}
+
 /// Both kinds of functions side by side: 36 of the patches, then 12 that are linear between the vertices.
 class DiceFunctions final : public FunctionSet {
   public:
     [[nodiscard]] std::size_t size() const override { return k_functions + k_vertices; }
     void values(DirectionView block, float* rows) const override {
-        std::fill_n(rows, size() * k_block_size, 0.0f);
+        clear(rows, size(), block.size);
         for (std::size_t j = 0; j < block.size; ++j) {
             const Vec3 w = direction_at(block, j);
             const Face& face = face_of(w);
@@ -174,13 +179,6 @@ const Tables& tables() {
     return once;
 }
 
-Directions turned(DirectionView directions, const Rotation& r) {
-    Directions result(directions.size);
-    for (std::size_t j = 0; j < directions.size; ++j)
-        set_entry(result.view(), j, rotate(r, direction_at(directions, j)));
-    return result;
-}
-
 /// All 48 functions as coefficients: chroma and luminance back to colours.
 struct Expanded {
     std::array<Rgb, k_functions> patches{};
@@ -213,7 +211,18 @@ class DiceConvolution final : public Evaluator {
     [[nodiscard]] std::string name() const override { return "convolution"; }
     [[nodiscard]] Accuracy accuracy() const override { return {"everywhere", "2e-3 of the largest E"}; }
     void signed_irradiance(std::span<const Rgb> c, DirectionView normals, MutableColourView out) const override {
-        std::vector<Rgb> e(harmonics_.size());
+        const Coefficients e = convolved(c);
+        for_each_part(normals, k_block_size, [&](DirectionView block, std::size_t begin) {
+            harmonics_.sum(e, TurnedBlock(block, dice_from_domain_).view(), out.part(begin, block.size));
+        });
+    }
+
+  private:
+    using Coefficients = std::array<Rgb, harmonics::coefficient_count(k_degree)>;
+
+    /// Harmonic coefficients of the irradiance.
+    [[nodiscard]] Coefficients convolved(std::span<const Rgb> c) const {
+        Coefficients e{};
         if (chroma_ == Chroma::patches) {
             add(c, 0, e);
         } else {
@@ -221,10 +230,8 @@ class DiceConvolution final : public Evaluator {
             add(all.patches, 0, e);
             add(all.linear, k_functions, e);
         }
-        harmonics_.sum(e, turned(normals, dice_from_domain_), out);
+        return e;
     }
-
-  private:
     /// Adds the irradiance of functions from `first` on.
     static void add(std::span<const Rgb> c, std::size_t first, std::span<Rgb> e) {
         for (std::size_t k = 0; k < c.size(); ++k) {
@@ -247,6 +254,8 @@ Rotation turned_dice(const Rotation& dice, const Rotation& r) {
 
 }  // namespace
 
+std::shared_ptr<const LinearBasis> ambient_dice() { return std::make_shared<AmbientDice>(k_upright); }
+
 Result<std::shared_ptr<const Basis>> AmbientDice::from_name(std::string_view name) {
     if (name == "dice-bezier") return std::shared_ptr<const Basis>(std::make_shared<AmbientDice>(k_upright));
     if (name == "dice-ycocg") return std::shared_ptr<const Basis>(std::make_shared<AmbientDiceYCoCg>(k_upright));
@@ -254,7 +263,7 @@ Result<std::shared_ptr<const Basis>> AmbientDice::from_name(std::string_view nam
 }
 
 void AmbientDice::values(DirectionView block, float* rows) const {
-    std::fill_n(rows, size() * k_block_size, 0.0f);
+    clear(rows, size(), block.size);
     for (std::size_t j = 0; j < block.size; ++j) {
         const Vec3 w = rotate(dice_from_domain_, direction_at(block, j));
         const Face& face = face_of(w);
@@ -266,14 +275,6 @@ void AmbientDice::values(DirectionView block, float* rows) const {
 
 std::string AmbientDice::description() const {
     return "ambient dice: values and slopes at the vertices of an icosahedron, Bezier patches between";
-}
-
-BasisNotes AmbientDice::notes() const {
-    return {"Ambient dice, Bezier patches",
-            "L(w) = a cubic on each face of an icosahedron through the values and slopes at its three vertices, smooth "
-            "across edges; of 108 floats a direction reads 27",
-            "radiance and irradiance of much detail for the floats that a lookup touches",
-            "memory; the whole of it has to be turned by resampling"};
 }
 
 Matrix AmbientDice::gram() const {
@@ -336,13 +337,6 @@ void AmbientDiceYCoCg::fit(std::span<const Rgb> accumulated, std::span<Rgb> c) c
 
 std::string AmbientDiceYCoCg::description() const {
     return "ambient dice of luminance, chroma linear between the vertices";
-}
-
-BasisNotes AmbientDiceYCoCg::notes() const {
-    return {"Ambient dice, luminance and chroma",
-            "Y as in dice-bezier, Co and Cg linear on each face; of 60 floats a direction reads 15",
-            "what dice-bezier is good at, where light has one colour or two",
-            "small coloured sources, whose colour spreads over a face"};
 }
 
 std::shared_ptr<const Evaluator> AmbientDiceYCoCg::evaluator(std::string_view name) const {

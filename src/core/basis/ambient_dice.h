@@ -3,8 +3,7 @@
 // and Schumaker 1996 (hybrid patches).
 #pragma once
 
-#include "lobelia/basis.h"
-#include "lobelia/result.h"
+#include "lobelia/bases.h"
 
 namespace lobelia {
 
@@ -22,7 +21,6 @@ class AmbientDice final : public LinearBasis {
     void values(DirectionView block, float* rows) const override;
     [[nodiscard]] std::string name() const override { return "dice-bezier"; }
     [[nodiscard]] std::string description() const override;
-    [[nodiscard]] BasisNotes notes() const override;
     [[nodiscard]] Domain domain() const override { return Domain::sphere; }
     [[nodiscard]] bool is_non_negative() const override { return false; }
     /// By quadrature over the faces, to 1e-9.
@@ -31,9 +29,6 @@ class AmbientDice final : public LinearBasis {
     /// convolution: by way of harmonics up to degree 8.
     [[nodiscard]] std::vector<std::string> evaluator_names() const override { return {"convolution"}; }
     [[nodiscard]] std::shared_ptr<const Evaluator> evaluator(std::string_view name) const override;
-    [[nodiscard]] std::vector<std::string> listed_encoders() const override {
-        return {"moments", "least-squares", "regularised"};
-    }
     [[nodiscard]] Rotated rotated(const Rotation& r, std::span<const Rgb> c) const override;
 
     [[nodiscard]] const Rotation& dice_from_domain() const { return dice_from_domain_; }
@@ -55,7 +50,6 @@ class AmbientDiceYCoCg final : public FittedBasis {
     void fit(std::span<const Rgb> accumulated, std::span<Rgb> c) const override;
     [[nodiscard]] std::string name() const override { return "dice-ycocg"; }
     [[nodiscard]] std::string description() const override;
-    [[nodiscard]] BasisNotes notes() const override;
     [[nodiscard]] Domain domain() const override { return Domain::sphere; }
     [[nodiscard]] std::vector<std::string> evaluator_names() const override { return {"convolution"}; }
     [[nodiscard]] std::shared_ptr<const Evaluator> evaluator(std::string_view name) const override;

@@ -2,12 +2,12 @@
 #include "core/basis/cosine_lobes.h"
 
 #include <algorithm>
-#include <memory>
 #include <span>
 
 #include "core/basis/icosahedron.h"
 #include "core/math/kernels.h"
 #include "core/math/quadrature.h"
+#include "core/math/scratch.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/basis/cosine_lobes.cpp"
@@ -153,33 +153,37 @@ class SquaredCosines final : public LinearEvaluator {
     }
     [[nodiscard]] std::size_t size() const override { return shares_.size(); }
     void values(DirectionView block, float* rows) const override {
-        const auto shares = std::make_unique_for_overwrite<float[]>(size() * k_block_size);
-        shares_.values(block, shares.get());
-        kernels::transform_rows(shares.get(), size(), at_axes_.data(), block.size, rows);
+        const Scratch shares(size() * k_block_size);
+        shares_.values(block, shares.data());
+        kernels::transform_rows(shares.data(), size(), at_axes_.data(), block.size, rows);
     }
     void signed_irradiance(std::span<const Rgb> c, DirectionView normals, MutableColourView out) const override {
-        // The irradiances at the axes once, then their mean at each normal.
-        std::vector<Rgb> at_axes(size());
-        for (std::size_t i = 0; i < size(); ++i)
-            for (std::size_t j = 0; j < size(); ++j) at_axes[j] = at_axes[j] + c[i] * at_axes_[i * size() + j];
-        evaluate(shares_, at_axes, normals, out);
+        const AtAxes at_axes = irradiance_at_axes(c);
+        evaluate(shares_, std::span(at_axes).first(size()), normals, out);
+    }
+    [[nodiscard]] Rgb signed_irradiance_at(std::span<const Rgb> c, Vec3 normal) const override {
+        const AtAxes at_axes = irradiance_at_axes(c);
+        return evaluate(shares_, std::span(at_axes).first(size()), normal);
     }
 
   private:
+    static constexpr std::size_t k_most_axes = 12;
+    using AtAxes = std::array<Rgb, k_most_axes>;
+    /// The irradiances at the axes, of which each normal has a mean.
+    [[nodiscard]] AtAxes irradiance_at_axes(std::span<const Rgb> c) const {
+        AtAxes at_axes{};
+        for (std::size_t i = 0; i < size(); ++i)
+            for (std::size_t j = 0; j < size(); ++j) at_axes[j] = at_axes[j] + c[i] * at_axes_[i * size() + j];
+        return at_axes;
+    }
+
     Shares shares_;
     std::vector<float> at_axes_;  ///< irradiance of function i at axis j
     double furnace_;
 };
 
 const CosineLobes::Kind k_ambient_cube = {
-    "ambient-cube",
-    "ambient cube: squared clamped cosines about the six axes",
-    Domain::sphere,
-    {1, 0},
-    {"Ambient cube", "characters lit by probes in six colours; it needs no more than three of them for a normal",
-     "anything sharper than a gradient; directions between the axes"},
-    0.005,
-    0.001};
+    "ambient-cube", "ambient cube: squared clamped cosines about the six axes", Domain::sphere, {1, 0}, 0.001};
 
 const CosineLobes::Kind k_hl2 = {
     "hl2",
@@ -187,9 +191,6 @@ const CosineLobes::Kind k_hl2 = {
     "normal",
     Domain::hemisphere,
     {1, 0},
-    {"Radiosity normal mapping", "normal-mapped lightmaps in three colours, each a lightmap of its own",
-     "light along the normal, which no direction faces; a constant sky comes out darker than it is by `squares`"},
-    0.06,
     0.25};
 
 const CosineLobes::Kind k_dice_srbf = {
@@ -197,10 +198,6 @@ const CosineLobes::Kind k_dice_srbf = {
     "ambient dice: radial functions .35 c^2 + .25 c^4 about the vertices of an icosahedron",
     Domain::sphere,
     {0.35f, 0.25f},
-    {"Ambient dice, radial functions",
-     "irradiance in 36 floats: smoother than lobes, no axis is preferred; six of the twelve are read for a normal",
-     "radiance of small sources; coefficients are large and of both signs"},
-    0.005,
     0.001};
 
 std::vector<Vec3> axes_of(const CosineLobes::Kind& kind) {
@@ -236,6 +233,10 @@ double clamped_power_product(Domain domain, std::array<Vec3, 2> axes, std::array
     return sum;
 }
 
+std::shared_ptr<const LinearBasis> ambient_cube() {
+    return std::make_shared<CosineLobes>(k_ambient_cube, axes_of(k_ambient_cube));
+}
+
 Result<std::shared_ptr<const Basis>> CosineLobes::from_name(std::string_view name) {
     for (const Kind* kind : {&k_ambient_cube, &k_hl2, &k_dice_srbf})
         if (name == kind->name)
@@ -245,12 +246,6 @@ Result<std::shared_ptr<const Basis>> CosineLobes::from_name(std::string_view nam
 
 void CosineLobes::values(DirectionView block, float* rows) const {
     fill_rows(axes_, {0, 0, kind_.lobe.square, 0, kind_.lobe.fourth}, 0, block, rows);
-}
-
-BasisNotes CosineLobes::notes() const {
-    const std::string lobe =
-        kind_.lobe.fourth == 0 ? "max(0, w . p_i)^2" : "(.35 c_i^2 + .25 c_i^4), c_i = max(0, w . p_i)";
-    return {kind_.notes[0], "L(w) = sum of C_i " + lobe, kind_.notes[1], kind_.notes[2]};
 }
 
 Matrix CosineLobes::gram() const {

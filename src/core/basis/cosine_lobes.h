@@ -4,8 +4,7 @@
 
 #include <array>
 
-#include "lobelia/basis.h"
-#include "lobelia/result.h"
+#include "lobelia/bases.h"
 
 namespace lobelia {
 
@@ -28,9 +27,7 @@ class CosineLobes final : public LinearBasis {
         std::string_view name, description;
         Domain domain;
         CosineLobe lobe;
-        std::array<const char*, 3> notes;  ///< family, good at, bad at
-        double bias;                       ///< furnace_bias()
-        double squares_furnace;            ///< Accuracy::furnace of `squares`
+        double squares_furnace;  ///< Accuracy::furnace of `squares`
     };
     CosineLobes(const Kind& kind, std::vector<Vec3> axes) : kind_(kind), axes_(std::move(axes)) {}
 
@@ -41,7 +38,6 @@ class CosineLobes final : public LinearBasis {
     void values(DirectionView block, float* rows) const override;
     [[nodiscard]] std::string name() const override { return std::string(kind_.name); }
     [[nodiscard]] std::string description() const override { return std::string(kind_.description); }
-    [[nodiscard]] BasisNotes notes() const override;
     [[nodiscard]] Domain domain() const override { return kind_.domain; }
     [[nodiscard]] bool is_non_negative() const override { return true; }
     [[nodiscard]] Matrix gram() const override;
@@ -49,7 +45,6 @@ class CosineLobes final : public LinearBasis {
     /// squares (cube and hl2): E at the axes, interpolated by squared cosines as shaders do. exact: of whole lobes.
     [[nodiscard]] std::vector<std::string> evaluator_names() const override;
     [[nodiscard]] std::shared_ptr<const Evaluator> evaluator(std::string_view name) const override;
-    [[nodiscard]] double furnace_bias() const override { return kind_.bias; }
     [[nodiscard]] Rotated rotated(const Rotation& r, std::span<const Rgb> c) const override;
 
   private:

@@ -4,10 +4,10 @@
 #include <algorithm>
 
 #include "core/basis/hemisphere_polynomials.h"
-#include "core/math/zonal_quadratic.h"
 #include "core/math/dense.h"
 #include "core/math/harmonics_degree_2.h"
 #include "core/math/quadrature.h"
+#include "core/math/zonal_quadratic.h"
 
 namespace lobelia {
 namespace {
@@ -229,32 +229,6 @@ std::string DirectionalLightmap::description() const {
             return "irradiance at the surface's normal and a direction";
         case Kind::enlighten_rgb:
             return "irradiance at the surface's normal and a direction for each channel";
-    }
-    return {};
-}
-
-BasisNotes DirectionalLightmap::notes() const {
-    switch (kind_) {
-        case Kind::sh1h:
-            return {"Degree-1 harmonics of the hemisphere",
-                    "L(w) = sum of c_i Y_i(w), degree 1, c_i = integral of L Y_i above the surface",
-                    "bakes that add samples up and nothing else: E(n) = integral of L / 4 + (integral of L w) . n / 2",
-                    "light from the side: degree 1 is too smooth for a horizon"};
-        case Kind::irradz:
-            return {"Degree-1 harmonics, exact at the normal",
-                    "E(n) = e0 + e . n, E exact at the surface's normal, nearest by least squares at the others above",
-                    "lightmaps under normal maps in 12 floats, read like degree-1 harmonics: flat surfaces are exact",
-                    "radiance, which only serves to carry the irradiance"};
-        case Kind::enlighten:
-            return {"Directional lightmap",
-                    "E(n) = E (1 + n . D) / (1 + D_z), E a colour, D a vector of at most length 1",
-                    "six floats; a flat surface reads exactly the lightmap that it would have without directions",
-                    "lights of different colours from different sides; light at grazing angles"};
-        case Kind::enlighten_rgb:
-            return {"Directional lightmap, a direction for each channel",
-                    "E(n) = E (1 + n . D) / (1 + D_z), E and D for each channel",
-                    "as above, with coloured light from several sides",
-                    "twelve floats, as many as degree-1 harmonics, which are read with less"};
     }
     return {};
 }

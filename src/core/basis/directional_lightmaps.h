@@ -19,7 +19,6 @@ class NormalMoments final : public LinearBasis {
     void values(DirectionView block, float* rows) const override;
     [[nodiscard]] std::string name() const override { return "normal-moments"; }
     [[nodiscard]] std::string description() const override { return "what directional lightmaps are fitted from"; }
-    [[nodiscard]] BasisNotes notes() const override { return {}; }
     [[nodiscard]] Domain domain() const override { return Domain::hemisphere; }
     [[nodiscard]] bool is_non_negative() const override { return false; }
     [[nodiscard]] Matrix gram() const override;
@@ -53,7 +52,6 @@ class DirectionalLightmap final : public FittedBasis {
     void fit(std::span<const Rgb> accumulated, std::span<Rgb> c) const override;
     [[nodiscard]] std::string name() const override;
     [[nodiscard]] std::string description() const override;
-    [[nodiscard]] BasisNotes notes() const override;
     [[nodiscard]] Domain domain() const override { return Domain::hemisphere; }
     /// linear: E(n) = e0 + e . n; negative L and E are read as 0. linear-signed: as it is.
     [[nodiscard]] std::vector<std::string> evaluator_names() const override { return {"linear", "linear-signed"}; }

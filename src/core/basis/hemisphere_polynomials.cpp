@@ -124,6 +124,11 @@ void HorizonIrradiance::values(DirectionView block, float* rows) const {
     HWY_DYNAMIC_DISPATCH(HorizonRows)(count_, block, rows);
 }
 
+std::shared_ptr<const LinearBasis> hemisphere_polynomials(std::size_t count) {
+    assert(count == 4 || count == 6);
+    return std::make_shared<HemispherePolynomials>(count);
+}
+
 Result<std::shared_ptr<const Basis>> HemispherePolynomials::from_name(std::string_view name) {
     for (const std::size_t count : {4u, 6u}) {
         auto basis = std::make_shared<HemispherePolynomials>(count);
@@ -139,16 +144,6 @@ void HemispherePolynomials::values(DirectionView block, float* rows) const {
 
 std::string HemispherePolynomials::description() const {
     return "H-basis: " + std::to_string(count_) + " polynomials orthonormal over the hemisphere";
-}
-
-BasisNotes HemispherePolynomials::notes() const {
-    return {
-        "H-basis",
-        "L(w) = sum of c_i H_i(w), H = sqrt(1/2pi), sqrt(3/2pi) y, sqrt(3/2pi) (2z - 1), sqrt(3/2pi) x, and for six "
-        "sqrt(15/2pi) xy, sqrt(15/8pi) (x^2 - y^2)",
-        "lightmaps with normal maps: no coefficient is spent below the horizon, and irradiance at the surface's own "
-        "normal is exact after least squares",
-        "small and bright sources; use where a normal may point below the surface"};
 }
 
 Matrix HemispherePolynomials::gram() const {

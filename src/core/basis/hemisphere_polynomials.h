@@ -2,8 +2,7 @@
 // horizon. Habel and Wimmer 2010.
 #pragma once
 
-#include "lobelia/basis.h"
-#include "lobelia/result.h"
+#include "lobelia/bases.h"
 
 namespace lobelia {
 
@@ -33,7 +32,6 @@ class HemispherePolynomials final : public LinearBasis {
     void values(DirectionView block, float* rows) const override;
     [[nodiscard]] std::string name() const override { return count_ == 4 ? "h4" : "h6"; }
     [[nodiscard]] std::string description() const override;
-    [[nodiscard]] BasisNotes notes() const override;
     [[nodiscard]] Domain domain() const override { return Domain::hemisphere; }
     [[nodiscard]] bool is_non_negative() const override { return false; }
     [[nodiscard]] Matrix gram() const override;
@@ -42,10 +40,6 @@ class HemispherePolynomials final : public LinearBasis {
     /// is above the horizon, at any normal.
     [[nodiscard]] std::vector<std::string> evaluator_names() const override { return {"projected", "exact"}; }
     [[nodiscard]] std::shared_ptr<const Evaluator> evaluator(std::string_view name) const override;
-    /// No joint norm: it takes functions whole, but these mean nothing below the horizon.
-    [[nodiscard]] std::vector<std::string> listed_encoders() const override {
-        return {"projection", "progressive", "moments", "least-squares", "regularised", "matrix-gain"};
-    }
     [[nodiscard]] Rotated rotated(const Rotation& r, std::span<const Rgb> c) const override;
 
     /// Factors of the polynomials: sqrt(1 / 2 pi), sqrt(3 / 2 pi), sqrt(15 / 2 pi).

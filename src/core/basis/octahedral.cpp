@@ -5,6 +5,7 @@
 #include <array>
 #include <charconv>
 
+#include "core/basis/turned_block.h"
 #include "core/math/quadrature.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -112,11 +113,9 @@ class Centroids final : public LinearEvaluator {
     }
     [[nodiscard]] std::size_t size() const override { return cells_.size(); }
     void values(DirectionView block, float* rows) const override {
-        Directions turned(k_block_size);
-        for (std::size_t j = 0; j < block.size; ++j)
-            set_entry(turned.view(), j, rotate(map_from_domain_, direction_at(block, j)));
+        const TurnedBlock turned(block, map_from_domain_);
         for (std::size_t i = 0; i < cells_.size(); ++i)
-            HWY_DYNAMIC_DISPATCH(CentroidRow)(cells_[i], turned.view().part(0, block.size), rows + i * k_block_size);
+            HWY_DYNAMIC_DISPATCH(CentroidRow)(cells_[i], turned.view(), rows + i * k_block_size);
     }
 
   private:
@@ -180,6 +179,11 @@ OctahedralTexels::OctahedralTexels(std::size_t resolution, const Rotation& map_f
     }
 }
 
+std::shared_ptr<const LinearBasis> octahedral_texels(std::size_t resolution) {
+    assert(resolution >= 2 && resolution % 2 == 0 && resolution <= k_highest_resolution);
+    return std::make_shared<OctahedralTexels>(resolution);
+}
+
 Result<std::shared_ptr<const Basis>> OctahedralTexels::from_name(std::string_view name) {
     if (!name.starts_with("oct")) return std::shared_ptr<const Basis>();
     std::size_t resolution = 0;
@@ -191,26 +195,28 @@ Result<std::shared_ptr<const Basis>> OctahedralTexels::from_name(std::string_vie
 }
 
 void OctahedralTexels::values(DirectionView block, float* rows) const {
-    std::fill_n(rows, size() * k_block_size, 0.0f);
+    for (std::size_t i = 0; i < size(); ++i) std::fill_n(rows + i * k_block_size, block.size, 0.0f);
     for (std::size_t j = 0; j < block.size; ++j)
         rows[map_.index(rotate(map_from_domain_, direction_at(block, j))) * k_block_size + j] = 1;
 }
 
+void OctahedralTexels::values_at(Vec3 direction, float* values) const {
+    std::fill_n(values, size(), 0.0f);
+    values[map_.index(rotate(map_from_domain_, direction))] = 1;
+}
+
+Rgb OctahedralTexels::radiance_at(std::span<const Rgb> c, Vec3 direction) const {
+    return c[map_.index(rotate(map_from_domain_, direction))];
+}
+
 void OctahedralTexels::radiance(std::span<const Rgb> c, DirectionView directions, MutableColourView out) const {
     for (std::size_t j = 0; j < directions.size; ++j)
-        set_entry(out, j, c[map_.index(rotate(map_from_domain_, direction_at(directions, j)))]);
+        set_entry(out, j, OctahedralTexels::radiance_at(c, direction_at(directions, j)));
 }
 
 std::string OctahedralTexels::description() const {
     return "octahedral texels: constant radiance in " + std::to_string(map_.resolution) + " x " +
            std::to_string(map_.resolution) + " cells";
-}
-
-BasisNotes OctahedralTexels::notes() const {
-    return {"Octahedral texels",
-            "L(w) = c_i of the cell that holds w: w / (|x| + |y| + |z|), its lower half folded out, on a grid of N x N",
-            "radiance of anything, at any resolution that is paid for; adding a sample touches one cell",
-            "bytes; noise, since a cell hears of few samples only"};
 }
 
 Matrix OctahedralTexels::gram() const {

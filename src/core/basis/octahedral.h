@@ -4,8 +4,7 @@
 
 #include <array>
 
-#include "lobelia/basis.h"
-#include "lobelia/result.h"
+#include "lobelia/bases.h"
 
 namespace lobelia {
 
@@ -38,10 +37,11 @@ class OctahedralTexels final : public LinearBasis {
 
     [[nodiscard]] std::size_t size() const override { return map_.size(); }
     void values(DirectionView block, float* rows) const override;
+    void values_at(Vec3 direction, float* values) const override;
     void radiance(std::span<const Rgb> c, DirectionView directions, MutableColourView out) const override;
+    [[nodiscard]] Rgb radiance_at(std::span<const Rgb> c, Vec3 direction) const override;
     [[nodiscard]] std::string name() const override { return "oct" + std::to_string(map_.resolution); }
     [[nodiscard]] std::string description() const override;
-    [[nodiscard]] BasisNotes notes() const override;
     [[nodiscard]] Domain domain() const override { return Domain::sphere; }
     [[nodiscard]] bool is_non_negative() const override { return true; }
     [[nodiscard]] Matrix gram() const override;
@@ -49,8 +49,6 @@ class OctahedralTexels final : public LinearBasis {
     /// centroid: each cell as its solid angle at its mean direction, blended over its width where the horizon cuts it.
     [[nodiscard]] std::vector<std::string> evaluator_names() const override { return {"centroid"}; }
     [[nodiscard]] std::shared_ptr<const Evaluator> evaluator(std::string_view name) const override;
-    /// Cells do not overlap: the running average is least squares, and others are no better.
-    [[nodiscard]] std::vector<std::string> listed_encoders() const override { return {"running-average", "moments"}; }
     [[nodiscard]] Rotated rotated(const Rotation& r, std::span<const Rgb> c) const override;
 
     [[nodiscard]] const OctahedralMap& map() const { return map_; }

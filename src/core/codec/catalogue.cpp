@@ -1,7 +1,7 @@
-// THE lists: bases, encoders, and through the bases their evaluators. Every codec follows from them.
-#include <algorithm>
+// THE lists: families of bases and encoders, with a card for each. Every codec follows from them.
+#include "core/codec/catalogue.h"
+
 #include <array>
-#include <numeric>
 
 #include "core/basis/ahd.h"
 #include "core/basis/ambient_cube_irradiance.h"
@@ -14,50 +14,167 @@
 #include "core/basis/sg/spherical_gaussians.h"
 #include "core/basis/sh/spherical_harmonics.h"
 #include "core/basis/sh/zh3.h"
-#include "core/encode/moments.h"
-#include "core/encode/sequential.h"
-#include "lobelia/codec.h"
-#include "lobelia/specular.h"
+#include "lobelia/encoders.h"
 
 namespace lobelia {
 namespace {
 
-using BasisPtr = std::shared_ptr<const Basis>;
 using LinearPtr = std::shared_ptr<const LinearBasis>;
 using EncoderPtr = std::shared_ptr<const Encoder>;
 
-/// The listed bases. A family (below) makes each from its name, and may know more names than are listed.
-constexpr std::array k_bases = {
-    "sg12",      "sg12h",        "sh1",        "sh2", "sh3",     "sh4",          "sh5",
-    "sh6",       "sh7",          "sh8",        "zh3", "zh3-rgb", "ambient-cube", "ambient-cube-e",
-    "dice-srbf", "dice-bezier",  "dice-ycocg", "ahd", "sgfit3",  "sgfit4",       "sgfit6",
-    "oct8",      "oct16",        "hl2",        "h4",  "h6",      "sh1h",         "irradz",
-    "enlighten", "enlighten-rgb"};
-
-constexpr std::array k_families = {
-    &SphericalGaussians::from_name,    &SphericalHarmonics::from_name,    &Zh3::from_name,
-    &CosineLobes::from_name,           &AmbientCubeIrradiance::from_name, &AmbientDice::from_name,
-    &AmbientHighlight::from_name,      &FittedGaussians::from_name,       &OctahedralTexels::from_name,
-    &HemispherePolynomials::from_name, &DirectionalLightmap::from_name};
-
-constexpr std::array k_patterns = {
+constexpr std::array k_gaussian_patterns = {
     NamePattern{"sg<N>, sg<N>a", "N spherical Gaussians on the sphere, 1 to 512; a: and an ambient lobe"},
     NamePattern{"sg<N>h", "N on the hemisphere"},
     NamePattern{"sg<N>@S", "any of these with sharpness S, 0.01 to 10000, instead of their own"},
-    NamePattern{"sgfit<N>", "N spherical Gaussians with fitted axes and sharpness, 1 to 12"},
-    NamePattern{"oct<N>", "N x N octahedral texels, N even, 2 to 64"},
-    NamePattern{"sg:FILE, sgh:FILE", "lobes from a file, a line \"x y z sharpness\" or \"ambient\" each"},
+    NamePattern{"sg{X Y Z S;...}, sgh{...}", "given lobes: axis and sharpness, or \"ambient\", each"},
 };
+constexpr std::array k_fitted_patterns = {
+    NamePattern{"sgfit<N>", "N spherical Gaussians with fitted axes and sharpness, 1 to 12"}};
+constexpr std::array k_octahedral_patterns = {NamePattern{"oct<N>", "N x N octahedral texels, N even, 2 to 64"}};
 
-enum class Needs { any_basis, non_negative_basis };
-enum class Listed { yes, no };
-
-struct EncoderEntry {
-    const char* name;
-    Needs needs;
-    const char* limit;  ///< the encoder whose solution this one strives for
-    EncoderPtr (*make)(LinearPtr);
-    Listed listed = Listed::yes;  ///< variants for study are known by name but not part of the product
+/// The families, in the order in which lists show them. BasisCard explains the fields of a card.
+constexpr std::array k_bases = {
+    BasisEntry{
+        "sg12 sg12h",
+        SphericalGaussians::from_name,
+        {.family = "Spherical Gaussians",
+         .formula = "L(w) = sum of c_i exp(lambda_i (w . p_i - 1)), on fixed axes p_i with fixed sharpness lambda_i",
+         .good_at = "radiance that stays positive (with a non-negative encoder); specular reflection, since a lobe "
+                    "times a lobe is a lobe; as many lobes as the budget allows",
+         .bad_at = "irradiance by plain least squares (the joint norm corrects it); rotation, as the axes are fixed",
+         .furnace_bias = 0.04},
+        k_gaussian_patterns},
+    BasisEntry{
+        "sh1 sh2 sh3 sh4 sh5 sh6 sh7 sh8",
+        SphericalHarmonics::from_name,
+        {.family = "Spherical harmonics",
+         .formula = "L(w) = sum over l and m of c_lm Y_lm(w), orthonormal and real, all signs plus, index l^2 + l + m",
+         .good_at = "smooth light and its irradiance (degree 2 is off by a few per cent); rotation; adding and "
+                    "filtering, since they are linear and have no axis of their own",
+         .bad_at = "small and bright sources: they ring, radiance and irradiance become negative opposite to the sun"}},
+    BasisEntry{"zh3",
+               Zh3::from_name,
+               {.family = "ZH3",
+                .formula = "L(w) = degree-1 harmonics + z Y_20(axis . w), the axis that of degree 1",
+                .good_at = "irradiance nearly as good as degree 2 for 15 floats in place of 27",
+                .bad_at = "light from two sides, which has no axis; filtering, where neighbours' axes differ"}},
+    BasisEntry{"zh3-rgb",
+               Zh3::from_name,
+               {.family = "ZH3, an axis for each channel",
+                .formula = "L(w) = degree-1 harmonics + z Y_20(axis . w), the axis that of degree 1",
+                .good_at = "irradiance nearly as good as degree 2 for 15 floats in place of 27",
+                .bad_at = "light from two sides, which has no axis; filtering, where neighbours' axes differ"}},
+    BasisEntry{"ambient-cube",
+               CosineLobes::from_name,
+               {.family = "Ambient cube",
+                .formula = "L(w) = sum of C_i max(0, w . p_i)^2",
+                .good_at = "characters lit by probes in six colours; a normal needs no more than three of them",
+                .bad_at = "anything sharper than a gradient; directions between the axes"}},
+    BasisEntry{
+        "ambient-cube-e",
+        AmbientCubeIrradiance::from_name,
+        {.family = "Ambient cube of irradiances",
+         .formula = "E(n) = sum of n_i^2 C_i over the three sides that n faces; L(w) is taken as E(w) / pi",
+         .good_at = "characters lit by probes: six colours, three of them for a normal, never negative",
+         .bad_at =
+             "irradiance between the axes; the radiance cube with its exact irradiance is better for the same floats"}},
+    BasisEntry{
+        "dice-srbf",
+        CosineLobes::from_name,
+        {.family = "Ambient dice, radial functions",
+         .formula = "L(w) = sum of C_i (.35 c_i^2 + .25 c_i^4), c_i = max(0, w . p_i)",
+         .good_at =
+             "irradiance in 36 floats: smoother than lobes, no axis is preferred; a normal needs six of the twelve",
+         .bad_at = "radiance of small sources; coefficients are large and of both signs"}},
+    BasisEntry{"dice-bezier",
+               AmbientDice::from_name,
+               {.family = "Ambient dice, Bezier patches",
+                .formula = "L(w) = a cubic on each face of an icosahedron through the values and slopes at its three "
+                           "vertices, smooth across edges; of 108 floats a direction needs 27",
+                .good_at = "radiance and irradiance of much detail for the floats that a lookup touches",
+                .bad_at = "memory; rotation needs resampling of the whole",
+                .encoders = "moments least-squares regularised"}},
+    BasisEntry{"dice-ycocg",
+               AmbientDice::from_name,
+               {.family = "Ambient dice, luminance and chroma",
+                .formula = "Y as in dice-bezier, Co and Cg linear on each face; of 60 floats a direction needs 15",
+                .good_at = "what dice-bezier is good at, where light has one colour or two",
+                .bad_at = "small coloured sources, whose colour spreads over a face"}},
+    BasisEntry{
+        "ahd",
+        AmbientHighlight::from_name,
+        {.family = "Ambient and highlight direction",
+         .formula = "E(n) = pi A + H max(0, n . d); as radiance, A + 9/2pi H max(0, w . d)^8",
+         .good_at =
+             "one dominant light; highlights of glossy surfaces, for which it has a direction and a colour; 9 floats",
+         .bad_at = "two lights; soft light from one side; filtering, where neighbours' directions differ"}},
+    // The octahedral texels that lobes are fitted from need no Gram matrix.
+    BasisEntry{
+        "sgfit3 sgfit4 sgfit6",
+        FittedGaussians::from_name,
+        {.family = "Fitted spherical Gaussians",
+         .formula =
+             "L(w) = sum of a_j exp(v_j . w - |v_j|), a_j >= 0, v_j the axis times the sharpness; 6 floats a lobe",
+         .good_at = "radiance of a few sources, however sharp, far below other bases at equal floats; never negative",
+         .bad_at = "baking many texels (a search for each); filtering, where neighbours' lobes differ",
+         .encoders = "moments"},
+        k_fitted_patterns},
+    // Cells do not overlap: the running average is least squares, and others are no better.
+    BasisEntry{
+        "oct8 oct16",
+        OctahedralTexels::from_name,
+        {.family = "Octahedral texels",
+         .formula = "L(w) = c_i of the cell that holds w: w / (|x| + |y| + |z|), its lower half folded out, on a grid "
+                    "of N x N",
+         .good_at = "radiance of anything, at any resolution that the budget allows; adding a sample touches one cell",
+         .bad_at = "bytes; noise, since few samples fall into each cell",
+         .encoders = "running-average moments"},
+        k_octahedral_patterns},
+    BasisEntry{"hl2",
+               CosineLobes::from_name,
+               {.family = "Radiosity normal mapping",
+                .formula = "L(w) = sum of C_i max(0, w . p_i)^2",
+                .good_at = "normal-mapped lightmaps in three colours, each a lightmap of its own",
+                .bad_at = "light along the normal, which no direction faces; a constant sky comes out darker than it "
+                          "is by `squares`",
+                .furnace_bias = 0.06}},
+    // No joint norm: it takes functions whole, but these have no meaning below the horizon.
+    BasisEntry{"h4 h6",
+               HemispherePolynomials::from_name,
+               {.family = "H-basis",
+                .formula = "L(w) = sum of c_i H_i(w), H = sqrt(1/2pi), sqrt(3/2pi) y, sqrt(3/2pi) (2z - 1), "
+                           "sqrt(3/2pi) x, and for six sqrt(15/2pi) xy, sqrt(15/8pi) (x^2 - y^2)",
+                .good_at = "lightmaps with normal maps: no coefficient is spent below the horizon, and irradiance at "
+                           "the surface's own normal is exact after least squares",
+                .bad_at = "small and bright sources; use where a normal may point below the surface",
+                .encoders = "projection progressive moments least-squares regularised matrix-gain"}},
+    BasisEntry{
+        "sh1h",
+        DirectionalLightmap::from_name,
+        {.family = "Degree-1 harmonics of the hemisphere",
+         .formula = "L(w) = sum of c_i Y_i(w), degree 1, c_i = integral of L Y_i above the surface",
+         .good_at = "bakes that add samples up and nothing else: E(n) = integral of L / 4 + (integral of L w) . n / 2",
+         .bad_at = "light from the side: degree 1 is too smooth for a horizon"}},
+    BasisEntry{
+        "irradz",
+        DirectionalLightmap::from_name,
+        {.family = "Degree-1 harmonics, exact at the normal",
+         .formula = "E(n) = e0 + e . n, E exact at the surface's normal, nearest by least squares at the others above",
+         .good_at =
+             "lightmaps under normal maps in 12 floats, evaluated like degree-1 harmonics: flat surfaces are exact",
+         .bad_at = "radiance, which only serves to carry the irradiance"}},
+    BasisEntry{"enlighten",
+               DirectionalLightmap::from_name,
+               {.family = "Directional lightmap",
+                .formula = "E(n) = E (1 + n . D) / (1 + D_z), E a colour, D a vector of at most length 1",
+                .good_at = "six floats; a flat surface has exactly the lightmap that it would have without directions",
+                .bad_at = "lights of different colours from different sides; light at grazing angles"}},
+    BasisEntry{"enlighten-rgb",
+               DirectionalLightmap::from_name,
+               {.family = "Directional lightmap, a direction for each channel",
+                .formula = "E(n) = E (1 + n . D) / (1 + D_z), E and D for each channel",
+                .good_at = "as above, with coloured light from several sides",
+                .bad_at = "twelve floats, as many as degree-1 harmonics, which are evaluated with less"}},
 };
 
 template <MomentSolver solver>
@@ -81,6 +198,7 @@ EncoderPtr running_average(LinearPtr basis) {
     return make_running_average(std::move(basis), sign);
 }
 
+/// The encoders, in the order in which lists show them.
 constexpr std::array k_encoders = {
     EncoderEntry{"projection", Needs::any_basis, "least-squares", moments<MomentSolver::projection>},
     EncoderEntry{"running-average", Needs::non_negative_basis, "least-squares", running_average<Sign::any>},
@@ -102,175 +220,11 @@ constexpr std::array k_encoders = {
     EncoderEntry{"progressive-accelerated", Needs::any_basis, "least-squares", progressive_accelerated, Listed::no},
 };
 
-bool suits(const EncoderEntry& entry, const LinearBasis& accumulated) {
-    return entry.needs == Needs::any_basis || accumulated.is_non_negative();
-}
-bool suits(const EncoderEntry& entry, const Basis& basis) {
-    return suits(entry, basis.linear() ? *basis.linear() : *basis.fitted()->accumulated());
-}
-
-std::vector<std::string> names_where(const auto& wanted) {
-    std::vector<std::string> names;
-    for (const auto& entry : k_encoders)
-        if (wanted(entry)) names.emplace_back(entry.name);
-    return names;
-}
-
-/// Levenshtein's edit distance.
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    std::iota(row.begin(), row.end(), std::size_t{0});
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        std::size_t diagonal = row[0];
-        row[0] = i + 1;
-        for (std::size_t j = 0; j < b.size(); ++j) {
-            const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
-            diagonal = row[j + 1];
-            row[j + 1] = std::min({replaced, row[j] + 1, row[j + 1] + 1});
-        }
-    }
-    return row.back();
-}
-
-std::string quoted(std::string_view name) { return "\"" + std::string(name) + "\""; }
-
 }  // namespace
 
-std::vector<std::string> basis_names() { return {k_bases.begin(), k_bases.end()}; }
-
-std::vector<std::string> encoder_names() {
-    return names_where([](const EncoderEntry& entry) { return entry.listed == Listed::yes; });
-}
-
-std::vector<std::string> encoder_variant_names() {
-    return names_where([](const EncoderEntry& entry) { return entry.listed == Listed::no; });
-}
-
-std::vector<std::string> encoder_names(const Basis& basis) {
-    const auto listed = basis.listed_encoders();
-    return names_where([&](const EncoderEntry& entry) {
-        const bool wanted = listed.empty() || std::find(listed.begin(), listed.end(), entry.name) != listed.end();
-        return entry.listed == Listed::yes && wanted && suits(entry, basis);
-    });
-}
-
-std::vector<NamePattern> basis_name_patterns() { return {k_patterns.begin(), k_patterns.end()}; }
-
-std::string encoder_limit(std::string_view encoder) {
-    for (const auto& entry : k_encoders)
-        if (entry.name == encoder) return entry.limit;
-    return std::string(encoder);
-}
+std::span<const BasisEntry> basis_entries() { return k_bases; }
+std::span<const EncoderEntry> encoder_entries() { return k_encoders; }
 
 std::string default_codec() { return "sh2/moments/convolution"; }
-
-std::vector<CodecName> all_codecs() {
-    std::vector<CodecName> codecs;
-    for (const char* name : k_bases) {
-        const BasisPtr basis = make_basis(name).value();
-        for (const auto& encoder : encoder_names(*basis))
-            for (const auto& evaluator : basis->evaluator_names()) codecs.push_back({name, encoder, evaluator});
-    }
-    return codecs;
-}
-
-Result<BasisPtr> make_basis(std::string_view name) {
-    for (const auto& from_name : k_families) {
-        auto basis = from_name(name);
-        if (!basis || *basis) return basis;
-    }
-    return Error{"unknown basis " + quoted(name) + nearest_names(name, basis_names())};
-}
-
-Result<EncoderPtr> make_encoder(std::string_view name, BasisPtr basis) {
-    for (const auto& entry : k_encoders) {
-        if (entry.name != name) continue;
-        if (!suits(entry, *basis))
-            return Error{"encoder " + quoted(name) + " needs a basis of non-negative functions, which " +
-                         basis->name() + " is not"};
-        if (basis->linear()) return entry.make(as_linear(basis));
-        const std::shared_ptr<const FittedBasis> fitted(basis, basis->fitted());
-        return make_fitted_encoder(fitted, entry.make(fitted->accumulated()));
-    }
-    return Error{"unknown encoder " + quoted(name) + nearest_names(name, encoder_names())};
-}
-
-Result<std::shared_ptr<const Evaluator>> make_evaluator(std::string_view name, const Basis& basis) {
-    if (auto evaluator = basis.evaluator(name)) return evaluator;
-    return Error{"unknown evaluator " + quoted(name) + " for basis " + basis.name() +
-                 nearest_names(name, basis.evaluator_names())};
-}
-
-std::vector<std::string> specular_names(const Basis& basis) {
-    auto names = basis.specular_names();
-    names.emplace_back("sampled");
-    return names;
-}
-
-Result<std::shared_ptr<const SpecularEvaluator>> make_specular(std::string_view name, BasisPtr basis) {
-    if (name == "sampled") return make_sampled_specular(std::move(basis));
-    if (auto evaluator = basis->specular(name)) return evaluator;
-    return Error{"unknown reading of gloss " + quoted(name) + " for basis " + basis->name() +
-                 nearest_names(name, specular_names(*basis))};
-}
-
-Result<CodecName> parse_codec_name(std::string_view name) {
-    // The basis may hold slashes itself (a file's path): split at the last two.
-    const auto last = name.rfind('/');
-    const auto none = std::string_view::npos;
-    const auto first = last == none || last == 0 ? none : name.rfind('/', last - 1);
-    if (first == none) {
-        std::vector<std::string> known;
-        for (const auto& codec : all_codecs()) known.push_back(codec.str());
-        return Error{"codec " + quoted(name) + " is not of the form basis/encoder/evaluator" +
-                     nearest_names(name, known)};
-    }
-    return CodecName{std::string(name.substr(0, first)), std::string(name.substr(first + 1, last - first - 1)),
-                     std::string(name.substr(last + 1))};
-}
-
-Result<Codec> make_codec(std::string_view name) {
-    auto parts = parse_codec_name(name);
-    if (!parts) return parts.error();
-    const auto in_codec = [&](const Error& error) { return Error{"codec " + quoted(name) + ": " + error.message}; };
-    auto basis = make_basis(parts->basis);
-    if (!basis) return in_codec(basis.error());
-    auto encoder = make_encoder(parts->encoder, *basis);
-    if (!encoder) return in_codec(encoder.error());
-    auto evaluator = make_evaluator(parts->evaluator, **basis);
-    if (!evaluator) return in_codec(evaluator.error());
-    return Codec(*parts, *encoder, *evaluator);
-}
-
-std::string nearest_names(std::string_view name, std::span<const std::string> known) {
-    std::vector<std::pair<std::size_t, std::string>> ranked;
-    for (const auto& candidate : known) ranked.emplace_back(edit_distance(name, candidate), candidate);
-    std::stable_sort(ranked.begin(), ranked.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-    std::string text;
-    for (std::size_t i = 0; i < std::min<std::size_t>(3, ranked.size()); ++i)
-        if (ranked[i].first <= std::max<std::size_t>(3, name.size() / 2))
-            text += (text.empty() ? "" : ", ") + ranked[i].second;
-    if (!text.empty()) return " (did you mean " + text + "?)";
-    // Nothing is near: where the list is short, say all of it.
-    constexpr std::size_t short_list = 20;
-    if (known.empty() || known.size() > short_list) return "";
-    for (const auto& candidate : known) text += (text.empty() ? "" : ", ") + candidate;
-    return " (known: " + text + ")";
-}
-
-std::vector<Rgb> Codec::encode(SampleView samples) const {
-    Accumulator accumulator(encoder_);
-    accumulator.add(samples);
-    return accumulator.solve();
-}
-
-void Codec::radiance(std::span<const Rgb> c, DirectionView directions, MutableColourView out) const {
-    basis().radiance(c, directions, out);
-    if (evaluator_->negative() == Negative::clamped) clamp_negative(out);
-}
-
-void Codec::irradiance(std::span<const Rgb> c, DirectionView normals, MutableColourView out) const {
-    lobelia::irradiance(*evaluator_, c, normals, out);
-}
 
 }  // namespace lobelia

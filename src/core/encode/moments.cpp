@@ -1,5 +1,5 @@
 // Moment encoders: one accumulator, several solvers.
-#include "core/encode/moments.h"
+#include "lobelia/encoders.h"
 
 #include <Eigen/Dense>
 #include <cmath>
@@ -8,6 +8,7 @@
 #include "core/math/dense.h"
 #include "core/math/kernels.h"
 #include "core/math/least_squares.h"
+#include "core/math/scratch.h"
 
 namespace lobelia {
 namespace {
@@ -101,17 +102,17 @@ class MomentEncoder final : public LinearEncoder {
     void add_moments(std::span<float> state, SampleView samples, const WithRows& with_rows) const {
         const std::size_t n = basis().size();
         const std::size_t most = is_joint() ? std::max(n, harmonics_.size()) : n;
-        const auto rows = std::make_unique_for_overwrite<float[]>(most * k_block_size);
+        const Scratch rows(most * k_block_size);
         float* moments = state.data() + header();
         float* harmonic_moments = state.data() + state.size() - 3 * harmonics_.size();
         for_each_part(samples, k_block_size, [&](SampleView block, std::size_t) {
-            basis().values(block.directions(), rows.get());
-            const float share = kernels::add_moments(rows.get(), n, block, moments);
+            basis().values(block.directions(), rows.data());
+            const float share = kernels::add_moments(rows.data(), n, block, moments);
             if (has_prior()) add_radiance(state, block);
-            with_rows(block, rows.get(), share);
+            with_rows(block, rows.data(), share);
             if (is_joint()) {
-                harmonics_.values(block.directions(), rows.get());
-                kernels::add_moments(rows.get(), harmonics_.size(), block, harmonic_moments);
+                harmonics_.values(block.directions(), rows.data());
+                kernels::add_moments(rows.data(), harmonics_.size(), block, harmonic_moments);
             }
         });
     }
@@ -158,8 +159,7 @@ class MomentEncoder final : public LinearEncoder {
         MatrixXd gram(n, n);
         for (Eigen::Index i = 0; i < n; ++i)
             for (Eigen::Index j = i; j < n; ++j) gram(i, j) = gram(j, i) = normalise * *next++;
-        // A ridge, relative to each function, above what float32 sums can tell apart.
-        gram.diagonal() *= 1 + 1e-6;
+        gram.diagonal() *= 1 + k_gram_ridge;
         return gram;
     }
 

@@ -1,10 +1,11 @@
 // Sequential encoders: shared padding, transposition and step sizes around three vectorised update rules.
-#include "core/encode/sequential.h"
+#include "lobelia/encoders.h"
 
 #include <Eigen/Dense>
 #include <limits>
 
 #include "core/math/kernels.h"
+#include "core/math/scratch.h"
 
 namespace lobelia {
 namespace {
@@ -22,33 +23,36 @@ class SequentialEncoder : public LinearEncoder {
 
     void add(std::span<float> state, SampleView samples) const final {
         const std::size_t n = basis().size(), lanes = round_up_to_lanes(n);
+        const std::size_t at_once = std::min(samples.size, k_block_size);
+        const Scratch memory(5 * lanes + 2 * n * k_block_size + 2 * lanes * at_once);
+        float* const padded = memory.data();
+        float* const rows = padded + 5 * lanes;
+        float* const values = rows + 2 * n * k_block_size;
+        float* const gains = values + lanes * at_once;
 
-        // Unpack the state into whole lanes.
-        std::vector<float> padded(5 * lanes);
+        // Unpack the state into whole lanes, zero past the last lobe.
+        std::fill_n(padded, 5 * lanes, 0.0f);
+        std::fill_n(values, 2 * lanes * at_once, 0.0f);
         kernels::Sequential s;
         s.lanes = lanes;
         s.lowest = is_non_negative() ? 0.0f : -std::numeric_limits<float>::max();
-        for (std::size_t k = 0; k < 3; ++k) s.b[k] = padded.data() + k * lanes;
-        s.per_lobe = padded.data() + 3 * lanes;
-        s.floor = padded.data() + 4 * lanes;
-        for (std::size_t k = 0; k < arrays(); ++k)
-            std::copy_n(state.data() + k_header + k * n, n, padded.data() + k * lanes);
+        for (std::size_t k = 0; k < 3; ++k) s.b[k] = padded + k * lanes;
+        s.per_lobe = padded + 3 * lanes;
+        s.floor = padded + 4 * lanes;
+        for (std::size_t k = 0; k < arrays(); ++k) std::copy_n(state.data() + k_header + k * n, n, padded + k * lanes);
         if (state[k_count] == 0) start(s);
-        fill_floor(padded.data() + 4 * lanes);
+        fill_floor(padded + 4 * lanes);
 
         // Go through the samples, lobes side by side.
-        const std::size_t at_once = std::min(samples.size, k_block_size);
-        const auto rows = std::make_unique_for_overwrite<float[]>(2 * n * k_block_size);
-        std::vector<float> values(lanes * at_once), gains(wants_gains() ? values.size() : 0);
         Progress progress{state[k_weight], state[k_count]};
         for_each_part(samples, k_block_size, [&](SampleView block, std::size_t) {
-            basis().values(block.directions(), rows.get());
-            transpose(rows.get(), n, lanes, block.size, values.data());
-            s.values = values.data();
+            basis().values(block.directions(), rows);
+            transpose(rows, n, lanes, block.size, values);
+            s.values = values;
             if (wants_gains()) {
-                fill_gains(rows.get(), block.size, rows.get() + n * k_block_size);
-                transpose(rows.get() + n * k_block_size, n, lanes, block.size, gains.data());
-                s.gains = gains.data();
+                fill_gains(rows, block.size, rows + n * k_block_size);
+                transpose(rows + n * k_block_size, n, lanes, block.size, gains);
+                s.gains = gains;
             }
             Steps steps;
             steps.first = progress.count;
@@ -59,8 +63,7 @@ class SequentialEncoder : public LinearEncoder {
         // Pack it again.
         state[k_weight] = static_cast<float>(progress.weight);
         state[k_count] = static_cast<float>(progress.count);
-        for (std::size_t k = 0; k < arrays(); ++k)
-            std::copy_n(padded.data() + k * lanes, n, state.data() + k_header + k * n);
+        for (std::size_t k = 0; k < arrays(); ++k) std::copy_n(padded + k * lanes, n, state.data() + k_header + k * n);
     }
 
     void solve(std::span<const float> state, std::span<Rgb> c) const override {

@@ -4,16 +4,11 @@
 
 #include <vector>
 
-#include "lobelia/math.h"
+#include "lobelia/bases.h"
 
 namespace lobelia::gaussian {
 
-/// A lobe: unit axis and sharpness lambda >= 0; sharpness 0 is the constant function 1 (an ambient lobe).
-struct Lobe {
-    Vec3 axis{0, 0, 1};
-    float sharpness = 0;
-    friend bool operator==(const Lobe&, const Lobe&) = default;
-};
+using lobelia::Lobe;
 
 /// A lobe times `amplitude`.
 struct ScaledLobe {

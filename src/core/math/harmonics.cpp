@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <type_traits>
+#include <utility>
 
 #include "core/math/quadrature.h"
 
@@ -19,56 +20,76 @@ namespace hn = hwy::HWY_NAMESPACE;
 using lobelia::HWY_NAMESPACE::D;
 using lobelia::HWY_NAMESPACE::V;
 
-/// Calls `visit(i, value)` for the harmonics of the bands that are `wanted`, at the directions from entry j on; `table`
+using lobelia::HWY_NAMESPACE::ColourSum;
+using lobelia::HWY_NAMESPACE::DC;
+using lobelia::HWY_NAMESPACE::Lanes3;
+using lobelia::HWY_NAMESPACE::load;
+
+/// Calls call(i) for i = 0 .. last; where `last` is a constant, so is each i, and all is unrolled.
+template <class Call>
+HWY_INLINE void for_each_up_to(std::size_t last, const Call& call) {
+    for (std::size_t i = 0; i <= last; ++i) call(i);
+}
+template <std::size_t last, class Call>
+HWY_INLINE void for_each_up_to(std::integral_constant<std::size_t, last>, const Call& call) {
+    [&]<std::size_t... i>(std::index_sequence<i...>) HWY_ATTR { (call(std::integral_constant<std::size_t, i>()), ...); }
+    (std::make_index_sequence<last + 1>());
+}
+
+/// Calls `visit(l, i, value)` for the harmonics of the bands l that are `wanted`, at the directions (x, y, z); `table`
 /// holds for each order m its first value Q_m^m, then a pair (a, a b) for each l > m, with Q_l = a z Q_{l-1} - a b
-/// Q_{l-2}.
-template <class Wanted, class Visit>
-HWY_INLINE void for_each_harmonic(std::size_t degree, const float* table, DirectionView block, std::size_t j,
-                                  const Wanted& wanted, const Visit& visit) {
-    const D d;
-    const auto [x, y, z] = lobelia::HWY_NAMESPACE::load(d, block, j);
-    V cosine = hn::Set(d, 1.0f), sine = hn::Zero(d);
-    for (std::size_t m = 0; m <= degree; ++m) {
-        V q = hn::Set(d, *table++), previous = hn::Zero(d);
+/// Q_{l-2}. `degree` is a number, or a constant so that all is unrolled.
+template <class Tag, class Degree, class Wanted, class Visit>
+HWY_INLINE void for_each_harmonic(Tag d, Degree degree, const float* table, hn::Vec<Tag> x, hn::Vec<Tag> y,
+                                  hn::Vec<Tag> z, const Wanted& wanted, const Visit& visit) {
+    using Vec = hn::Vec<Tag>;
+    Vec cosine = hn::Set(d, 1.0f), sine = hn::Zero(d);
+    for_each_up_to(degree, [&](auto m) HWY_ATTR {
+        Vec q = hn::Set(d, *table++), previous = hn::Zero(d);
         for (std::size_t l = m; l <= degree; ++l) {
             if (wanted(l)) {
-                visit(l * l + l + m, hn::Mul(q, cosine));
-                if (m > 0) visit(l * l + l - m, hn::Mul(q, sine));
+                visit(l, l * l + l + m, hn::Mul(q, cosine));
+                if (m > 0) visit(l, l * l + l - m, hn::Mul(q, sine));
             }
             if (l == degree) break;
-            const V next = hn::NegMulAdd(hn::Set(d, table[1]), previous, hn::Mul(hn::Mul(hn::Set(d, table[0]), z), q));
+            const Vec next =
+                hn::NegMulAdd(hn::Set(d, table[1]), previous, hn::Mul(hn::Mul(hn::Set(d, table[0]), z), q));
             table += 2;
             previous = q;
             q = next;
         }
         // Step to (x + iy)^(m + 1).
-        const V turned = hn::NegMulAdd(y, sine, hn::Mul(x, cosine));
+        const Vec turned = hn::NegMulAdd(y, sine, hn::Mul(x, cosine));
         sine = hn::MulAdd(x, sine, hn::Mul(y, cosine));
         cosine = turned;
-    }
+    });
 }
 
 constexpr auto k_every_band = [](std::size_t) { return true; };
 
 void Values(std::size_t degree, const float* table, DirectionView block, float* rows) {
     const D d;
-    for (std::size_t j = 0; j < block.size; j += hn::Lanes(d))
-        for_each_harmonic(degree, table, block, j, k_every_band,
-                          [&](std::size_t i, V value) HWY_ATTR { hn::StoreU(value, d, rows + i * k_block_size + j); });
+    for (std::size_t j = 0; j < block.size; j += hn::Lanes(d)) {
+        const Lanes3 w = load(d, block, j);
+        for_each_harmonic(d, degree, table, w.x, w.y, w.z, k_every_band,
+                          [&](std::size_t, std::size_t i, V value)
+                              HWY_ATTR { hn::StoreU(value, d, rows + i * k_block_size + j); });
+    }
 }
 
-/// `degree` is a number, or a constant so that all is unrolled.
 template <class Degree, class Wanted>
 void sum(Degree degree, const Wanted& wanted, const float* table, const Rgb* c, DirectionView directions,
          MutableColourView out) {
     const D d;
     for (std::size_t j = 0; j < directions.size; j += hn::Lanes(d)) {
         V r = hn::Zero(d), g = r, b = r;
-        for_each_harmonic(degree, table, directions, j, wanted, [&](std::size_t i, V value) HWY_ATTR {
+        const Lanes3 w = load(d, directions, j);
+        const auto add = [&](std::size_t, std::size_t i, V value) HWY_ATTR {
             r = hn::MulAdd(hn::Set(d, c[i].r), value, r);
             g = hn::MulAdd(hn::Set(d, c[i].g), value, g);
             b = hn::MulAdd(hn::Set(d, c[i].b), value, b);
-        });
+        };
+        for_each_harmonic(d, degree, table, w.x, w.y, w.z, wanted, add);
         lobelia::HWY_NAMESPACE::store(d, r, out.channel(0), j, out.size);
         lobelia::HWY_NAMESPACE::store(d, g, out.channel(1), j, out.size);
         lobelia::HWY_NAMESPACE::store(d, b, out.channel(2), j, out.size);
@@ -93,12 +114,52 @@ void Sum(std::size_t degree, const float* table, const Rgb* c, DirectionView dir
         default:
             break;
     }
-    // Irradiance has no odd bands beyond the first: leave out what is 0 everywhere.
-    std::vector<char> lit(degree + 1);
+    // Irradiance has no odd bands beyond the first: leave out bands of zeros.
+    std::uint64_t lit = 0;
     for (std::size_t l = 0; l <= degree; ++l)
-        lit[l] = std::any_of(c + l * l, c + (l + 1) * (l + 1), [](Rgb v) { return v != Rgb{}; }) ? 1 : 0;
+        if (l >= 64 || std::any_of(c + l * l, c + (l + 1) * (l + 1), [](Rgb v) { return v != Rgb{}; }))
+            lit |= std::uint64_t{1} << std::min<std::size_t>(l, 63);
     sum(
-        degree, [&](std::size_t l) { return lit[l] != 0; }, table, c, directions, out);
+        degree, [&](std::size_t l) { return (lit >> std::min<std::size_t>(l, 63) & 1) != 0; }, table, c, directions,
+        out);
+}
+
+/// At one direction, red, green and blue side by side in a vector.
+template <class Degree, class Wanted>
+HWY_INLINE Rgb sum_at(Degree degree, const Wanted& wanted, const float* table, const Rgb* c, const float* factors,
+                      const Vec3& w) {
+    const DC d;
+    ColourSum sum(c, (degree + 1) * (degree + 1));
+    for_each_harmonic(d, degree, table, hn::Set(d, w.x), hn::Set(d, w.y), hn::Set(d, w.z), wanted,
+                      [&](std::size_t l, std::size_t i, hn::Vec<DC> value)
+                          HWY_ATTR { sum.add(i, hn::Mul(value, hn::Set(d, factors[l]))); });
+    return sum.total();
+}
+template <std::size_t degree>
+Rgb sum_at_unrolled(const float* table, const Rgb* c, const float* factors, const Vec3& w) {
+    return sum_at(std::integral_constant<std::size_t, degree>(), k_every_band, table, c, factors, w);
+}
+
+Rgb SumAt(std::size_t degree, const float* table, const Rgb* c, const float* factors, const Vec3& w) {
+    switch (degree) {
+        case 1:
+            return sum_at_unrolled<1>(table, c, factors, w);
+        case 2:
+            return sum_at_unrolled<2>(table, c, factors, w);
+        case 3:
+            return sum_at_unrolled<3>(table, c, factors, w);
+        default:
+            // Leave out the bands that irradiance does not have.
+            return sum_at(
+                degree, [&](std::size_t l) { return factors[l] != 0; }, table, c, factors, w);
+    }
+}
+
+void ValuesAt(std::size_t degree, const float* table, const Vec3& w, float* values) {
+    const hn::CappedTag<float, 1> d;
+    for_each_harmonic(d, degree, table, hn::Set(d, w.x), hn::Set(d, w.y), hn::Set(d, w.z), k_every_band,
+                      [&](std::size_t, std::size_t i, hn::Vec<hn::CappedTag<float, 1>> value)
+                          HWY_ATTR { values[i] = hn::GetLane(value); });
 }
 
 }  // namespace lobelia::harmonics::HWY_NAMESPACE
@@ -109,6 +170,8 @@ namespace lobelia::harmonics {
 
 HWY_EXPORT(Values);
 HWY_EXPORT(Sum);
+HWY_EXPORT(SumAt);
+HWY_EXPORT(ValuesAt);
 
 double clamped_cosine(std::size_t l) {
     if (l == 0) return k_pi;
@@ -146,6 +209,15 @@ void Harmonics::values(DirectionView block, float* rows) const {
 void Harmonics::sum(std::span<const Rgb> c, DirectionView directions, MutableColourView out) const {
     assert(c.size() == size() && directions.size == out.size);
     HWY_DYNAMIC_DISPATCH(Sum)(degree_, table_.data(), c.data(), directions, out);
+}
+
+void Harmonics::values_at(Vec3 direction, float* values) const {
+    HWY_DYNAMIC_DISPATCH(ValuesAt)(degree_, table_.data(), direction, values);
+}
+
+Rgb Harmonics::sum_at(std::span<const Rgb> c, std::span<const float> band_factors, Vec3 direction) const {
+    assert(c.size() == size() && band_factors.size() == degree_ + 1);
+    return HWY_DYNAMIC_DISPATCH(SumAt)(degree_, table_.data(), c.data(), band_factors.data(), direction);
 }
 
 std::vector<double> values(std::size_t degree, double x, double y, double z) {

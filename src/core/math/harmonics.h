@@ -24,6 +24,9 @@ class Harmonics final : public FunctionSet {
     void values(DirectionView block, float* rows) const override;
     /// out_j = sum_i c_i Y_i(direction j), as evaluate() does, but without a table; bands of zeros cost little.
     void sum(std::span<const Rgb> c, DirectionView directions, MutableColourView out) const;
+    void values_at(Vec3 direction, float* values) const override;
+    /// sum_l f_l sum_m c_lm Y_lm at one direction, f the degree() + 1 factors of the bands.
+    [[nodiscard]] Rgb sum_at(std::span<const Rgb> c, std::span<const float> band_factors, Vec3 direction) const;
 
   private:
     std::size_t degree_;

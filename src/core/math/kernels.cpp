@@ -17,16 +17,12 @@ HWY_BEFORE_NAMESPACE();
 namespace lobelia::kernels::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 using lobelia::HWY_NAMESPACE::D;
+using lobelia::HWY_NAMESPACE::load;
 using lobelia::HWY_NAMESPACE::store;
 using lobelia::HWY_NAMESPACE::V;
 
 /// Sum of all lanes.
 HWY_INLINE float reduce(D d, V v) { return hn::GetLane(hn::SumOfLanes(d, v)); }
-
-/// Lanes of `v` at entries j .. that lie before `size`, zero beyond.
-HWY_INLINE V before(D d, V v, std::size_t j, std::size_t size) {
-    return j + hn::Lanes(d) <= size ? v : hn::IfThenElseZero(hn::FirstN(d, size - j), v);
-}
 
 /// Samples whose flux (radiance times solid angle) stays in the first-level cache beside their directions.
 constexpr std::size_t k_flux_part = 1024;
@@ -44,9 +40,7 @@ void add_irradiance(DirectionView d_s, const float (*flux)[k_flux_part], Directi
             front[i][k] = back[i][k] = hn::Zero(d);
             n[i][k] = hn::Set(d, normals.channel(k)[first + i]);
         }
-    for (std::size_t j = 0; j < d_s.size; j += hn::Lanes(d)) {
-        const V x = hn::LoadU(d, d_s.channel(0) + j), y = hn::LoadU(d, d_s.channel(1) + j),
-                z = hn::LoadU(d, d_s.channel(2) + j);
+    const auto add = [&](std::size_t j, V x, V y, V z) HWY_ATTR {
         const V colour[3] = {hn::Load(d, flux[0] + j), hn::Load(d, flux[1] + j), hn::Load(d, flux[2] + j)};
         for (std::size_t i = 0; i < Count; ++i) {
             const V cosine = hn::MulAdd(n[i][0], x, hn::MulAdd(n[i][1], y, hn::Mul(n[i][2], z)));
@@ -57,6 +51,13 @@ void add_irradiance(DirectionView d_s, const float (*flux)[k_flux_part], Directi
                 for (std::size_t k = 0; k < 3; ++k) back[i][k] = hn::MulAdd(away, colour[k], back[i][k]);
             }
         }
+    };
+    std::size_t j = 0;
+    for (; j + hn::Lanes(d) <= d_s.size; j += hn::Lanes(d))
+        add(j, hn::LoadU(d, d_s.channel(0) + j), hn::LoadU(d, d_s.channel(1) + j), hn::LoadU(d, d_s.channel(2) + j));
+    if (j < d_s.size) {
+        const auto rest = lobelia::HWY_NAMESPACE::load(d, d_s, j);
+        add(j, rest.x, rest.y, rest.z);
     }
     for (std::size_t i = 0; i < Count; ++i)
         for (std::size_t k = 0; k < 3; ++k) {
@@ -72,10 +73,9 @@ void irradiance_sum(SampleView samples, DirectionView normals, MutableColourView
         // Multiply radiance by solid angle once, zero past the end.
         alignas(64) float flux[3][k_flux_part];
         for (std::size_t j = 0; j < part.size; j += hn::Lanes(d)) {
-            const V omega = before(d, hn::LoadU(d, part.solid_angles() + j), j, part.size);
+            const V omega = load(d, part.solid_angles(), j, part.size);
             for (std::size_t k = 0; k < 3; ++k)
-                hn::Store(hn::Mul(omega, before(d, hn::LoadU(d, part.radiance().channel(k) + j), j, part.size)), d,
-                          flux[k] + j);
+                hn::Store(hn::Mul(omega, load(d, part.radiance().channel(k), j, part.size)), d, flux[k] + j);
         }
 
         // Visit several normals at a time: each loaded sample then serves several sums.
@@ -104,17 +104,16 @@ float AddMoments(const float* rows, std::size_t count, SampleView block, float* 
     alignas(64) float flux[3][k_block_size];
     V total = hn::Zero(d);
     for (std::size_t j = 0; j < block.size; j += hn::Lanes(d)) {
-        const V omega = before(d, hn::LoadU(d, block.solid_angles() + j), j, block.size);
+        const V omega = load(d, block.solid_angles(), j, block.size);
         total = hn::Add(total, omega);
         for (std::size_t k = 0; k < 3; ++k)
-            hn::Store(hn::Mul(omega, before(d, hn::LoadU(d, block.radiance().channel(k) + j), j, block.size)), d,
-                      flux[k] + j);
+            hn::Store(hn::Mul(omega, load(d, block.radiance().channel(k), j, block.size)), d, flux[k] + j);
     }
     for (std::size_t i = 0; i < count; ++i) {
         const float* row = rows + i * k_block_size;
         V r = hn::Zero(d), g = r, b = r;
         for (std::size_t j = 0; j < block.size; j += hn::Lanes(d)) {
-            const V w = before(d, hn::LoadU(d, row + j), j, block.size);
+            const V w = load(d, row, j, block.size);
             r = hn::MulAdd(w, hn::Load(d, flux[0] + j), r);
             g = hn::MulAdd(w, hn::Load(d, flux[1] + j), g);
             b = hn::MulAdd(w, hn::Load(d, flux[2] + j), b);
@@ -134,7 +133,7 @@ HWY_INLINE void add_products(D d, const float* weighted, const float* rows, std:
     for (std::size_t j = 0; j < size; j += hn::Lanes(d)) {
         const V w = hn::Load(d, weighted + j);
         for (std::size_t k = 0; k < Count; ++k)
-            sum[k] = hn::MulAdd(w, before(d, hn::LoadU(d, rows + k * k_block_size + j), j, size), sum[k]);
+            sum[k] = hn::MulAdd(w, load(d, rows + k * k_block_size, j, size), sum[k]);
     }
     for (std::size_t k = 0; k < Count; ++k) sums[k] += reduce(d, sum[k]);
 }
@@ -144,8 +143,8 @@ void AddGram(const float* rows, std::size_t count, SampleView block, float* sums
     alignas(64) float weighted[k_block_size];
     for (std::size_t i = 0; i < count; ++i) {
         for (std::size_t j = 0; j < block.size; j += hn::Lanes(d)) {
-            const V omega = before(d, hn::LoadU(d, block.solid_angles() + j), j, block.size);
-            const V row = before(d, hn::LoadU(d, rows + i * k_block_size + j), j, block.size);
+            const V omega = load(d, block.solid_angles(), j, block.size);
+            const V row = load(d, rows + i * k_block_size, j, block.size);
             hn::Store(hn::Mul(omega, row), d, weighted + j);
         }
         std::size_t k = i;
@@ -159,10 +158,10 @@ void AddWeightedDirections(const float* row, SampleView block, float* sums) {
     const D d;
     V sum[4] = {hn::Zero(d), hn::Zero(d), hn::Zero(d), hn::Zero(d)};
     for (std::size_t j = 0; j < block.size; j += hn::Lanes(d)) {
-        const V omega = before(d, hn::LoadU(d, block.solid_angles() + j), j, block.size);
-        const V w = hn::Mul(omega, before(d, hn::LoadU(d, row + j), j, block.size));
+        const V omega = load(d, block.solid_angles(), j, block.size);
+        const V w = hn::Mul(omega, load(d, row, j, block.size));
         for (std::size_t k = 0; k < 3; ++k)
-            sum[k] = hn::MulAdd(w, before(d, hn::LoadU(d, block.directions().channel(k) + j), j, block.size), sum[k]);
+            sum[k] = hn::MulAdd(w, load(d, block.directions().channel(k), j, block.size), sum[k]);
         sum[3] = hn::Add(sum[3], w);
     }
     for (std::size_t k = 0; k < 4; ++k) sums[k] += reduce(d, sum[k]);
@@ -182,6 +181,22 @@ void Combine(const float* rows, std::size_t count, std::span<const Rgb> c, Mutab
         store(d, g, out.channel(1), j, out.size);
         store(d, b, out.channel(2), j, out.size);
     }
+}
+
+void CombineEach(const float* rows, std::span<const float* const> c, std::size_t begin, MutableColourView out) {
+    const D d;
+    for (std::size_t j = 0; j < out.size; j += hn::Lanes(d)) {
+        V sum[3] = {hn::Zero(d), hn::Zero(d), hn::Zero(d)};
+        for (std::size_t i = 0; i < c.size(); i += 3) {
+            const V w = hn::LoadU(d, rows + i / 3 * k_block_size + j);
+            for (std::size_t k = 0; k < 3; ++k) sum[k] = hn::MulAdd(load(d, c[i + k] + begin, j, out.size), w, sum[k]);
+        }
+        for (std::size_t k = 0; k < 3; ++k) store(d, sum[k], out.channel(k), j, out.size);
+    }
+}
+
+Rgb WeightedSum(const float* weights, std::span<const Rgb> c) {
+    return lobelia::HWY_NAMESPACE::weighted_sum(weights, c.data(), c.size());
 }
 
 void TransformRows(const float* rows, std::size_t count, const float* matrix, std::size_t size, float* to) {
@@ -269,6 +284,8 @@ HWY_EXPORT(AddMoments);
 HWY_EXPORT(AddGram);
 HWY_EXPORT(AddWeightedDirections);
 HWY_EXPORT(Combine);
+HWY_EXPORT(CombineEach);
+HWY_EXPORT(WeightedSum);
 HWY_EXPORT(TransformRows);
 HWY_EXPORT(RunningAverage);
 HWY_EXPORT(Progressive);
@@ -294,6 +311,10 @@ WeightedDirections weighted_directions(const float* row, SampleView block) {
 void combine(const float* rows, std::size_t count, std::span<const Rgb> c, MutableColourView out) {
     HWY_DYNAMIC_DISPATCH(Combine)(rows, count, c, out);
 }
+void combine_each(const float* rows, std::span<const float* const> c, std::size_t begin, MutableColourView out) {
+    HWY_DYNAMIC_DISPATCH(CombineEach)(rows, c, begin, out);
+}
+Rgb weighted_sum(const float* weights, std::span<const Rgb> c) { return HWY_DYNAMIC_DISPATCH(WeightedSum)(weights, c); }
 void transform_rows(const float* rows, std::size_t count, const float* matrix, std::size_t size, float* to) {
     HWY_DYNAMIC_DISPATCH(TransformRows)(rows, count, matrix, size, to);
 }

@@ -24,6 +24,12 @@ void add_gram(const float* rows, std::size_t count, SampleView block, float* sum
 /// out_j = sum_i c_i row_i[j].
 void combine(const float* rows, std::size_t count, std::span<const Rgb> c, MutableColourView out);
 
+/// The same where every place has coefficients of its own: channel k of c_i for entry j is c[3 i + k][begin + j].
+void combine_each(const float* rows, std::span<const float* const> c, std::size_t begin, MutableColourView out);
+
+/// sum_i weights_i c_i.
+[[nodiscard]] Rgb weighted_sum(const float* weights, std::span<const Rgb> c);
+
 /// to_i = sum_k matrix[i * count + k] row_k, for whole rows of `size` entries rounded up to lanes.
 void transform_rows(const float* rows, std::size_t count, const float* matrix, std::size_t size, float* to);
 

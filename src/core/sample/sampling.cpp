@@ -4,19 +4,13 @@
 #include <bit>
 #include <numeric>
 
+#include "core/sample/scramble.h"
+
 namespace lobelia {
 namespace {
 
 constexpr std::array<std::string_view, k_sequences.size()> k_sequence_names = {"random", "stratified", "hammersley",
                                                                                "halton", "r2",         "sobol"};
-
-std::uint32_t reverse_bits(std::uint32_t v) {
-    v = (v >> 16) | (v << 16);
-    v = ((v & 0x00ff00ffu) << 8) | ((v & 0xff00ff00u) >> 8);
-    v = ((v & 0x0f0f0f0fu) << 4) | ((v & 0xf0f0f0f0u) >> 4);
-    v = ((v & 0x33333333u) << 2) | ((v & 0xccccccccu) >> 2);
-    return ((v & 0x55555555u) << 1) | ((v & 0xaaaaaaaau) >> 1);
-}
 
 double unit_interval(std::uint_fast32_t v) { return static_cast<double>(v) * 0x1p-32; }
 
@@ -24,40 +18,6 @@ double radical_inverse(std::uint64_t i, std::uint32_t base) {
     double value = 0;
     for (double digit = 1.0 / base; i > 0; i /= base, digit /= base) value += digit * static_cast<double>(i % base);
     return value;
-}
-
-/// Second Sobol dimension (primitive polynomial x + 1): direction numbers v' = v ^ (v >> 1).
-std::uint32_t sobol_dimension_2(std::uint32_t index) {
-    std::uint32_t result = 0;
-    for (std::uint32_t v = 0x80000000u; index != 0; index >>= 1, v ^= v >> 1)
-        if (index & 1u) result ^= v;
-    return result;
-}
-
-/// Mixes a seed with a small number (a finaliser of Wellons's lowbias32 kind).
-std::uint32_t hash(std::uint32_t seed, std::uint32_t salt) {
-    std::uint32_t x = seed + 0x9e3779b9u * (salt + 1);
-    x = (x ^ (x >> 16)) * 0x21f0aaadu;
-    x = (x ^ (x >> 15)) * 0x735a2d97u;
-    return x ^ (x >> 15);
-}
-
-/// Owen scrambling in base 2 by the Laine-Karras permutation with Burley's constants, on mirrored bits.
-std::uint32_t owen_scramble(std::uint32_t value, std::uint32_t seed) {
-    std::uint32_t v = reverse_bits(value);
-    v ^= v * 0x3d20adeau;
-    v += seed;
-    v *= (seed >> 16) | 1u;
-    v ^= v * 0x05526c56u;
-    v ^= v * 0x53a22864u;
-    return reverse_bits(v);
-}
-
-Point2 scrambled_sobol(std::uint32_t i, std::uint32_t seed) {
-    // Scrambling the index as well keeps each aligned block of 2^k points together, in another order.
-    const std::uint32_t shuffled = owen_scramble(i, hash(seed, 0));
-    return {unit_interval(owen_scramble(reverse_bits(shuffled), hash(seed, 1))),
-            unit_interval(owen_scramble(sobol_dimension_2(shuffled), hash(seed, 2)))};
 }
 
 std::vector<Point2> stratified_points(std::size_t count, std::mt19937& generator) {
@@ -103,7 +63,7 @@ std::vector<Point2> sequence_points(Sequence sequence, std::size_t count, std::u
     std::vector<Point2> points(count);
     // The plastic number g solves g^3 = g + 1; steps 1 / g and 1 / g^2 are the least regular pair (Roberts).
     constexpr double plastic = 1.32471795724474602596;
-    const Point2 start = {0.5 + unit_interval(hash(seed, 0)), 0.5 + unit_interval(hash(seed, 1))};
+    const Point2 start = {0.5 + unit_interval(mix(seed, 0)), 0.5 + unit_interval(mix(seed, 1))};
     const auto fraction = [](double v) { return v - std::floor(v); };
     for (std::size_t i = 0; i < count; ++i) {
         const auto n = static_cast<std::uint32_t>(i);
@@ -123,9 +83,11 @@ std::vector<Point2> sequence_points(Sequence sequence, std::size_t count, std::u
                 points[i] = {fraction(start.a + static_cast<double>(i) / plastic),
                              fraction(start.b + static_cast<double>(i) / (plastic * plastic))};
                 break;
-            case Sequence::sobol:
-                points[i] = scrambled_sobol(n, seed);
+            case Sequence::sobol: {
+                const auto [a, b] = scrambled_sobol(n, mix(seed, 0), seed);
+                points[i] = {unit_interval(a), unit_interval(b)};
                 break;
+            }
             case Sequence::stratified:
                 break;
         }
@@ -177,7 +139,7 @@ std::vector<std::uint32_t> spread_order(std::size_t count, std::uint32_t seed) {
     std::vector<std::uint32_t> order;
     order.reserve(count);
     for (std::uint64_t i = 0; i < std::uint64_t{1} << bits; ++i) {
-        const std::uint32_t scrambled = owen_scramble(reverse_bits(static_cast<std::uint32_t>(i)), hash(seed, 0));
+        const std::uint32_t scrambled = reverse_bits(scramble_mirrored(static_cast<std::uint32_t>(i), mix(seed, 0)));
         const std::uint32_t position = bits == 0 ? 0 : scrambled >> (32 - bits);
         if (position < count) order.push_back(position);
     }

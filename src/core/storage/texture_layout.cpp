@@ -6,6 +6,8 @@
 #include <cmath>
 #include <deque>
 
+#include "core/storage/components.h"
+
 namespace lobelia {
 namespace {
 
@@ -15,20 +17,6 @@ using Texture = TextureLayout::Texture;
 /// Texels that are prepared and encoded at a time, so that they stay in the cache between the two.
 constexpr std::size_t k_strip = 4096;
 
-/// Shares of r, g, b in a component, and of a component in r, g, b.
-struct Shares {
-    float in[3], out[3];
-};
-constexpr std::array<Shares, 6> k_shares = {{
-    {{1, 0, 0}, {1, 0, 0}},
-    {{0, 1, 0}, {0, 1, 0}},
-    {{0, 0, 1}, {0, 0, 1}},
-    {{0.25f, 0.5f, 0.25f}, {1, 1, 1}},
-    {{0.5f, 0, -0.5f}, {1, 0, -1}},
-    {{-0.25f, 0.5f, -0.25f}, {-1, 1, -1}},
-}};
-
-const Shares& shares_of(Component component) { return k_shares[static_cast<std::size_t>(component)]; }
 bool is_rgb(Component component) { return component <= Component::b; }
 std::size_t rgb_index(Component component) { return static_cast<std::size_t>(component); }
 
@@ -130,7 +118,7 @@ void repeat_each(std::span<float> row, std::size_t count) {
 /// Puts what a channel of a texture gives back where it belongs. Luma comes before chroma, and both add up.
 void unpack_channel(const StoredChannel& channel, const Texture& texture, const PackedTexture& packed,
                     const float* decoded, const MutableCoefficientPlanes& out) {
-    const Shares& shares = shares_of(channel.component);
+    const ComponentShares& shares = shares_of(channel.component);
     const float inverse = 1 / channel.scale;
     std::vector<float> row(packed.width * texture.subsampling);
     for (std::size_t y = 0; y < out.height; ++y) {

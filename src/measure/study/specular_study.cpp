@@ -1,4 +1,4 @@
-// The study of glossy reflection: every reading against rays.
+// The study of specular reflection: every evaluator against rays.
 #include "measure/study/specular_study.h"
 
 #include <algorithm>
@@ -13,11 +13,11 @@ namespace {
 constexpr std::array k_study_alphas = {.1f, .25f, .5f, .8f};
 constexpr std::array k_study_cosines = {.95f, .6f, .25f};
 constexpr std::array k_study_sharpnesses = {.5f, 2.f, 6.f, 16.f, 64.f, 256.f};
-/// Of these the published means are made.
+/// Sharpnesses within this range make the published means.
 constexpr float k_published_low = 2, k_published_high = 64;
-constexpr std::size_t k_truth_rays = 4096, k_axes = 400;
+constexpr std::size_t k_reference_rays = 4096, k_axes = 400;
 
-/// What a lobe sends to the viewer, by rays.
+/// Reflected radiance of a lobe, by rays.
 float study_by_rays(const std::vector<ggx::Ray>& rays, float sharpness, Vec3 axis) {
     float sum = 0;
     for (const auto& ray : rays) sum += ray.weight * std::exp(sharpness * (dot(ray.direction, axis) - 1));
@@ -29,45 +29,46 @@ std::vector<float> study_by_rays(const std::vector<ggx::Ray>& rays, float sharpn
     return values;
 }
 
-/// One way to read a lobe: a formula or a few rays.
-struct StudyReading {
+/// One way to evaluate a lobe: a formula or a few rays.
+struct StudyEvaluator {
     std::string name;
     std::optional<SgSpecular> formula;
     std::size_t rays = 0;
 };
-std::vector<StudyReading> study_readings() {
-    std::vector<StudyReading> all;
+std::vector<StudyEvaluator> study_evaluators() {
+    std::vector<StudyEvaluator> all;
     for (const auto& info : sg_specular_list()) all.push_back({std::string(info.name), info.kind});
     for (std::size_t count : {16u, 64u}) all.push_back({"sampled, " + std::to_string(count) + " rays", {}, count});
     return all;
 }
 
-/// Relative errors of one reading: root mean square over axes of the lobe, over that of the truth.
+/// Relative errors of one evaluator: root mean square over axes of the lobe, over that of the reference.
 struct StudyError {
     double sphere = 0, hemisphere = 0;  ///< axes everywhere, or above the horizon
 };
 struct StudyCase {
     float alpha, cosine, sharpness;
-    std::vector<StudyError> errors;  ///< of each reading
+    std::vector<StudyError> errors;  ///< of each evaluator
     [[nodiscard]] bool is_published() const { return sharpness >= k_published_low && sharpness <= k_published_high; }
 };
 
-std::vector<StudyError> measure_gloss(const ggx::View& view, float sharpness, const std::vector<ggx::Ray>& truth_rays) {
+std::vector<StudyError> measure_specular(const ggx::View& view, float sharpness,
+                                         const std::vector<ggx::Ray>& reference_rays) {
     static const Directions axes = uniform_directions(Domain::sphere, Sequence::hammersley, k_axes, 0);
-    const auto truth = study_by_rays(truth_rays, sharpness, axes);
+    const auto reference = study_by_rays(reference_rays, sharpness, axes);
     double whole = 0, upper = 0;
     for (std::size_t i = 0; i < k_axes; ++i) {
-        const double square = static_cast<double>(truth[i] * truth[i]);
+        const double square = static_cast<double>(reference[i] * reference[i]);
         whole += square;
         if (direction_at(axes, i).z > 0) upper += square;
     }
     std::vector<StudyError> errors;
-    for (const StudyReading& reading : study_readings()) {
-        const auto values = reading.formula ? sg_specular(*reading.formula, view, sharpness, axes)
-                                            : study_by_rays(ggx::rays(view, reading.rays), sharpness, axes);
+    for (const StudyEvaluator& evaluator : study_evaluators()) {
+        const auto values = evaluator.formula ? sg_specular(*evaluator.formula, view, sharpness, axes)
+                                              : study_by_rays(ggx::rays(view, evaluator.rays), sharpness, axes);
         StudyError e;
         for (std::size_t i = 0; i < k_axes; ++i) {
-            const double square = static_cast<double>((values[i] - truth[i]) * (values[i] - truth[i]));
+            const double square = static_cast<double>((values[i] - reference[i]) * (values[i] - reference[i]));
             e.sphere += square;
             if (direction_at(axes, i).z > 0) e.hemisphere += square;
         }
@@ -76,27 +77,27 @@ std::vector<StudyError> measure_gloss(const ggx::View& view, float sharpness, co
     return errors;
 }
 
-std::vector<StudyCase> all_gloss_cases() {
+std::vector<StudyCase> all_specular_cases() {
     std::vector<StudyCase> cases;
     for (float alpha : k_study_alphas)
         for (float cosine : k_study_cosines) {
             const auto view = ggx::make_view(cosine, alpha);
-            const auto rays = ggx::rays(view, k_truth_rays);
+            const auto rays = ggx::rays(view, k_reference_rays);
             for (float sharpness : k_study_sharpnesses)
-                cases.push_back({alpha, cosine, sharpness, measure_gloss(view, sharpness, rays)});
+                cases.push_back({alpha, cosine, sharpness, measure_specular(view, sharpness, rays)});
         }
     return cases;
 }
 
-Study::Table mean_gloss_table(const std::vector<StudyCase>& cases) {
+Study::Table mean_specular_table(const std::vector<StudyCase>& cases) {
     Study::Table table{"Mean relative error of a lobe's reflected light",
                        "Over alpha 0.1, 0.25, 0.5, 0.8; n.v 0.95, 0.6, 0.25; sharpness 2, 6, 16, 64. Each error is a "
                        "root mean square over axes of the lobe, all over the sphere or above the horizon, divided by "
-                       "the root mean square of the truth (4096 rays).",
-                       {"reading", "axes over the sphere", "axes above the horizon", "worst case, sphere"},
+                       "the root mean square of the reference (4096 rays).",
+                       {"evaluator", "axes over the sphere", "axes above the horizon", "worst case, sphere"},
                        {}};
-    const auto readings = study_readings();
-    for (std::size_t k = 0; k < readings.size(); ++k) {
+    const auto evaluators = study_evaluators();
+    for (std::size_t k = 0; k < evaluators.size(); ++k) {
         double sphere = 0, hemisphere = 0, worst = 0, count = 0;
         for (const auto& one : cases) {
             if (!one.is_published()) continue;
@@ -105,14 +106,15 @@ Study::Table mean_gloss_table(const std::vector<StudyCase>& cases) {
             worst = std::max(worst, one.errors[k].sphere);
             ++count;
         }
-        table.rows.push_back({readings[k].name, table_number(sphere / count, 3), table_number(hemisphere / count, 3),
+        table.rows.push_back({evaluators[k].name, table_number(sphere / count, 3), table_number(hemisphere / count, 3),
                               table_number(worst, 3)});
     }
     return table;
 }
 
 Study::Table case_table(const std::vector<StudyCase>& cases, std::size_t k) {
-    Study::Table table{"Relative error of " + study_readings()[k].name, "Axes over the sphere.", {"alpha", "n.v"}, {}};
+    Study::Table table{
+        "Relative error of " + study_evaluators()[k].name, "Axes over the sphere.", {"alpha", "n.v"}, {}};
     for (float sharpness : k_study_sharpnesses)
         table.columns.push_back("sharpness " + table_number(static_cast<double>(sharpness), 3));
     for (std::size_t i = 0; i < cases.size(); i += k_study_sharpnesses.size()) {
@@ -137,7 +139,7 @@ Study::Table furnace_table() {
     for (float alpha : {.05f, .1f, .25f, .5f, .8f, 1.f}) {
         std::vector<std::string> row = {table_number(static_cast<double>(alpha))};
         for (float cosine : cosines) {
-            const auto lobe = ggx::lobe_by_rays(ggx::make_view(cosine, alpha), k_truth_rays);
+            const auto lobe = ggx::lobe_by_rays(ggx::make_view(cosine, alpha), k_reference_rays);
             row.push_back(table_number(static_cast<double>(lobe.albedo), 3) + " (" +
                           table_number(static_cast<double>(lobe.fresnel), 2) + ")");
         }
@@ -171,13 +173,13 @@ Study::Table harmonics_table() {
         for (float cosine : k_study_cosines)
             for (std::size_t degree : {1u, 2u, 4u, 8u}) {
                 const auto basis = std::make_shared<SphericalHarmonics>(degree);
-                const auto truth = make_sampled_specular(basis, 1024);
+                const auto reference = make_sampled_specular(basis, 1024);
                 const auto c = power_of_height(degree);
                 const PointsAtAngle points(100, cosine, alpha);
                 std::vector<std::string> row = {table_number(static_cast<double>(alpha)),
                                                 table_number(static_cast<double>(cosine)), std::to_string(degree)};
                 for (const auto& name : sh_specular_names())
-                    row.push_back(table_number(relative_gloss_error(*basis->specular(name), *truth, c, points)));
+                    row.push_back(table_number(relative_specular_error(*basis->specular(name), *reference, c, points)));
                 table.rows.push_back(row);
             }
     return table;
@@ -191,9 +193,9 @@ Study::Plot sharpness_plot(const std::vector<StudyCase>& cases) {
                      Study::Axis::logarithmic,
                      Study::Axis::logarithmic,
                      {}};
-    const auto readings = study_readings();
-    for (std::size_t k = 0; k < readings.size(); ++k) {
-        Study::Series series{readings[k].name, {}, {}};
+    const auto evaluators = study_evaluators();
+    for (std::size_t k = 0; k < evaluators.size(); ++k) {
+        Study::Series series{evaluators[k].name, {}, {}};
         for (std::size_t j = 0; j < k_study_sharpnesses.size(); ++j) {
             double sum = 0, count = 0;
             for (std::size_t i = j; i < cases.size(); i += k_study_sharpnesses.size(), ++count)
@@ -230,17 +232,17 @@ Study::Plot curve_plot(float alpha, float cosine, float sharpness) {
     };
     for (const auto& info : sg_specular_list())
         add(std::string(info.name), sg_specular(info.kind, view, sharpness, axes));
-    add("4096 rays", study_by_rays(ggx::rays(view, k_truth_rays), sharpness, axes));
+    add("4096 rays", study_by_rays(ggx::rays(view, k_reference_rays), sharpness, axes));
     return plot;
 }
 
 /// A sphere seen from +z: the points of its picture, four to a pixel, and the pixels that they belong to.
-struct GlossySphere {
+struct SpecularSphere {
     static constexpr std::size_t size = 128, subsamples = 2, across = size * subsamples;
     std::vector<std::size_t> owners;
     Directions normals, views;
 
-    GlossySphere() {
+    SpecularSphere() {
         std::vector<Vec3> all;
         for (std::size_t i = 0; i < across * across; ++i) {
             const std::size_t x = i % across, y = i / across;
@@ -265,8 +267,8 @@ struct GlossySphere {
     }
 };
 
-void add_glossy_spheres(Study& study, float alpha, float sharpness) {
-    static const GlossySphere sphere;
+void add_specular_spheres(Study& study, float alpha, float sharpness) {
+    static const SpecularSphere sphere;
     const auto caption = "alpha " + table_number(static_cast<double>(alpha)) + ", sharpness " +
                          table_number(static_cast<double>(sharpness));
     const gaussian::Lobe lobe{normalize(Vec3{-0.5f, 0.6f, 0.62f}), sharpness};
@@ -299,11 +301,11 @@ PointsAtAngle::PointsAtAngle(std::size_t count, float cosine, float alpha)
     }
 }
 
-double relative_gloss_error(const SpecularEvaluator& evaluator, const SpecularEvaluator& truth, std::span<const Rgb> c,
-                            const PointsAtAngle& points) {
+double relative_specular_error(const SpecularEvaluator& evaluator, const SpecularEvaluator& reference,
+                               std::span<const Rgb> c, const PointsAtAngle& points) {
     Colours out(points.alphas.size()), exact(points.alphas.size());
     evaluator.reflected(c, points.view(), out);
-    truth.reflected(c, points.view(), exact);
+    reference.reflected(c, points.view(), exact);
     double error = 0, whole = 0;
     for (std::size_t i = 0; i < out.size(); ++i) {
         const auto e = static_cast<double>(colour_at(exact, i).g), d = static_cast<double>(colour_at(out, i).g) - e;
@@ -316,13 +318,14 @@ double relative_gloss_error(const SpecularEvaluator& evaluator, const SpecularEv
 Study study_specular() {
     Study study;
     study.name = "specular";
-    study.title = "Glossy reflection of lobes and harmonics";
+    study.title = "Specular reflection of lobes and harmonics";
     study.summary =
         "A lobe exp(lambda (l.p - 1)) lights a GGX surface: the reflected radiance is the integral of the lobe times "
-        "D G / (4 n.v) over the hemisphere, without Fresnel. Each reading is compared with rays along visible normals, "
+        "D G / (4 n.v) over the hemisphere, without Fresnel. Each evaluator is compared with rays along visible "
+        "normals, "
         "over roughness, view angle and sharpness; spherical harmonics likewise.";
-    const auto cases = all_gloss_cases();
-    study.tables.push_back(mean_gloss_table(cases));
+    const auto cases = all_specular_cases();
+    study.tables.push_back(mean_specular_table(cases));
     for (std::size_t k = 0; k < sg_specular_list().size(); ++k) study.tables.push_back(case_table(cases, k));
     study.tables.push_back(harmonics_table());
     study.tables.push_back(furnace_table());
@@ -330,7 +333,7 @@ Study study_specular() {
     for (const auto& [alpha, cosine, sharpness] :
          {std::array{.1f, .25f, 16.f}, {.25f, .6f, 16.f}, {.5f, .6f, 6.f}, {.8f, .6f, 64.f}})
         study.plots.push_back(curve_plot(alpha, cosine, sharpness));
-    for (float alpha : {.1f, .25f, .5f}) add_glossy_spheres(study, alpha, 16);
+    for (float alpha : {.1f, .25f, .5f}) add_specular_spheres(study, alpha, 16);
     return study;
 }
 

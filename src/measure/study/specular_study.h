@@ -1,4 +1,4 @@
-// The study of glossy reflection from spherical Gaussians and spherical harmonics.
+// The study of specular reflection from spherical Gaussians and spherical harmonics.
 #pragma once
 
 #include "lobelia/specular.h"
@@ -14,11 +14,12 @@ struct PointsAtAngle {
     [[nodiscard]] SpecularPoints view() const { return {normals, views, alphas}; }
 };
 
-/// Root mean square of the difference between two readings of the same coefficients, over that of `truth`; of green.
-[[nodiscard]] double relative_gloss_error(const SpecularEvaluator& evaluator, const SpecularEvaluator& truth,
-                                          std::span<const Rgb> c, const PointsAtAngle& points);
+/// RMS difference between two evaluators on the same coefficients, over the RMS of `reference`; of
+/// green.
+[[nodiscard]] double relative_specular_error(const SpecularEvaluator& evaluator, const SpecularEvaluator& reference,
+                                             std::span<const Rgb> c, const PointsAtAngle& points);
 
-/// Error tables of every reading over roughness, view angle and sharpness, curves, and lit spheres.
+/// Error tables of every evaluator over roughness, view angle and sharpness, curves, and lit spheres.
 [[nodiscard]] Study study_specular();
 
 }  // namespace lobelia

@@ -12,7 +12,7 @@ namespace {
 constexpr std::array k_studies = {
     StudyEntry{"irradiance", "Irradiance formulae of spherical Gaussians against the exact integral",
                study_sg_irradiance},
-    StudyEntry{"specular", "Glossy reflection of lobes and harmonics against rays", study_specular},
+    StudyEntry{"specular", "Specular reflection of lobes and harmonics against ray tracing", study_specular},
 };
 
 }  // namespace

@@ -1,6 +1,7 @@
 // The form of every study: tables, plots and pictures with captions, so that any page can show any of them.
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -37,7 +38,11 @@ struct Study {
     std::vector<Picture> pictures;
 };
 
-/// A table as Markdown.
+/// A table, or all tables of a study, as Markdown.
 [[nodiscard]] std::string to_markdown(const Study::Table& table);
+[[nodiscard]] std::string to_markdown(const Study& study);
+
+/// All but the pictures.
+[[nodiscard]] nlohmann::json to_json(const Study& study);
 
 }  // namespace lobelia

@@ -31,29 +31,29 @@ Directions tilted_normals() {
     return normals;
 }
 
-/// One basis with one encoder, all ways to store it and all ways to read it.
+/// One basis with one encoder, all its storages and evaluators.
 struct Subject {
     CodecName name;  ///< without evaluator
     std::shared_ptr<const Encoder> encoder;
     std::vector<const Storage*> storages;  ///< null first: as solved
     std::vector<std::shared_ptr<const Evaluator>> evaluators;
-    std::size_t first_reading = 0;  ///< of its storages and evaluators, among all
+    std::size_t first_evaluation = 0;  ///< of its storages and evaluators, among all
 };
 
-/// Sums over texels, for each reading and normal class.
+/// Sums over texels, for each evaluation and normal class.
 struct Sums {
     double at_normal = 0, tilted = 0;
     std::size_t negative = 0;
 };
 
-/// What a texel gave: the coefficients of each method, and the truth.
+/// The coefficients of each method at a texel, and the reference.
 struct Encoded {
     std::vector<std::vector<Rgb>> c;
-    Colours truth{k_normals};
+    Colours reference{k_normals};
     bool valid = true;
 };
 
-/// Texels that are judged together: those of a block, row by row, or one alone.
+/// Texels that are measured together: those of a block, row by row, or one alone.
 using Unit = std::vector<std::size_t>;
 constexpr std::size_t k_block_side = 4, k_block_texels = k_block_side * k_block_side;
 
@@ -74,7 +74,7 @@ std::vector<Unit> all_units(const TexelMap& map, bool blocks) {
     return units;
 }
 
-/// The coefficients of a block as they come back from storage.
+/// Packs and unpacks the coefficients of a block.
 std::vector<std::vector<Rgb>> through_storage(const Storage& storage, const CoefficientTraits& traits,
                                               std::span<const std::vector<Rgb>> c) {
     std::vector<std::vector<float>> planes(3 * traits.count, std::vector<float>(k_block_texels));
@@ -107,12 +107,12 @@ class BakeStudy {
                                make_encoder(encoder_name, *basis).value(),
                                {nullptr},
                                {},
-                               readings_};
+                               evaluations_};
                 for (const Storage* storage : options_.storages)
                     if (suits(*storage, coefficient_traits(*method.encoder))) method.storages.push_back(storage);
                 for (const auto& evaluator : (*basis)->evaluator_names())
                     method.evaluators.push_back(make_evaluator(evaluator, **basis).value());
-                readings_ += method.storages.size() * method.evaluators.size();
+                evaluations_ += method.storages.size() * method.evaluators.size();
                 methods_.push_back(std::move(method));
             }
         }
@@ -129,7 +129,7 @@ class BakeStudy {
         std::mutex mutex;
         tbb::parallel_for(std::size_t{0}, count, [&](std::size_t k) {
             if (stop) return;
-            judge(units[k * units.size() / count], parts_[k]);
+            measure(units[k * units.size() / count], parts_[k]);
             ++done;
             if (!progress || !mutex.try_lock()) return;
             progress(static_cast<double>(done) / static_cast<double>(count));
@@ -140,23 +140,23 @@ class BakeStudy {
     [[nodiscard]] BakedCodecs result() const;
 
   private:
-    /// What a unit adds to the result.
+    /// The contribution of a unit to the result.
     struct Part {
-        std::size_t texels = 0;  ///< that are valid
+        std::size_t texels = 0;  ///< valid ones
         double mean = 0;         ///< sum of their irradiances
-        std::vector<Sums> sums;  ///< for each reading
+        std::vector<Sums> sums;  ///< for each evaluation
     };
 
     [[nodiscard]] Encoded encode(std::size_t texel) const;
-    void judge(const Unit& unit, Part& part) const;
+    void measure(const Unit& unit, Part& part) const;
     /// Adds to the sums of each evaluator.
-    void compare(const Subject& method, std::span<const Rgb> c, ColourView truth, std::span<Sums> sums) const;
+    void compare(const Subject& method, std::span<const Rgb> c, ColourView reference, std::span<Sums> sums) const;
 
     const BakeSetup& setup_;
     const BakeStudyOptions& options_;
     Directions normals_ = tilted_normals();
     std::vector<Subject> methods_;
-    std::size_t readings_ = 0;
+    std::size_t evaluations_ = 0;
     std::vector<Part> parts_;
 };
 
@@ -185,7 +185,7 @@ Encoded BakeStudy::encode(std::size_t index) const {
         for (const SampleView& view : {above, buffer.sources(0)}) {
             irradiance_sum(view, normals_, part);
             for (std::size_t c = 0; c < 3; ++c)
-                for (std::size_t j = 0; j < k_normals; ++j) result.truth.channel(c)[j] += part.channel(c)[j];
+                for (std::size_t j = 0; j < k_normals; ++j) result.reference.channel(c)[j] += part.channel(c)[j];
         }
         if (first >= options_.samples) continue;
         for (std::size_t m = 0; m < methods_.size(); ++m) {
@@ -194,8 +194,8 @@ Encoded BakeStudy::encode(std::size_t index) const {
             encoder.add_sources(states[m], buffer.sources(0));
         }
     }
-    scale(result.truth, static_cast<float>(2 * k_pi / options_.reference_samples));
-    result.valid = 2 * back_faces <= options_.reference_samples && luminance(colour_at(result.truth, 0)) > 0;
+    scale(result.reference, static_cast<float>(2 * k_pi / options_.reference_samples));
+    result.valid = 2 * back_faces <= options_.reference_samples && luminance(colour_at(result.reference, 0)) > 0;
     for (std::size_t m = 0; m < methods_.size(); ++m) {
         result.c.emplace_back(methods_[m].encoder->basis().size());
         methods_[m].encoder->solve(states[m], result.c.back());
@@ -203,30 +203,31 @@ Encoded BakeStudy::encode(std::size_t index) const {
     return result;
 }
 
-void BakeStudy::judge(const Unit& unit, Part& part) const {
-    part.sums.resize(readings_);
+void BakeStudy::measure(const Unit& unit, Part& part) const {
+    part.sums.resize(evaluations_);
     std::vector<Encoded> texels;
     for (const std::size_t texel : unit) texels.push_back(encode(texel));
     for (const Encoded& texel : texels)
         if (texel.valid) {
             ++part.texels;
-            part.mean += luminance(colour_at(texel.truth, 0));
+            part.mean += luminance(colour_at(texel.reference, 0));
         }
     for (std::size_t m = 0; m < methods_.size(); ++m) {
         std::vector<std::vector<Rgb>> solved;
         for (Encoded& texel : texels) solved.push_back(std::move(texel.c[m]));
         const auto traits = coefficient_traits(*methods_[m].encoder);
-        std::span<Sums> rest = std::span(part.sums).subspan(methods_[m].first_reading);
+        std::span<Sums> rest = std::span(part.sums).subspan(methods_[m].first_evaluation);
         for (const Storage* storage : methods_[m].storages) {
             const auto read = storage == nullptr ? solved : through_storage(*storage, traits, solved);
             for (std::size_t t = 0; t < texels.size(); ++t)
-                if (texels[t].valid) compare(methods_[m], read[t], texels[t].truth, rest);
+                if (texels[t].valid) compare(methods_[m], read[t], texels[t].reference, rest);
             rest = rest.subspan(methods_[m].evaluators.size());
         }
     }
 }
 
-void BakeStudy::compare(const Subject& method, std::span<const Rgb> c, ColourView truth, std::span<Sums> sums) const {
+void BakeStudy::compare(const Subject& method, std::span<const Rgb> c, ColourView reference,
+                        std::span<Sums> sums) const {
     Colours read(k_normals);
     for (std::size_t e = 0; e < method.evaluators.size(); ++e) {
         Sums& sum = sums[e];
@@ -235,7 +236,7 @@ void BakeStudy::compare(const Subject& method, std::span<const Rgb> c, ColourVie
             if (luminance(colour_at(read, j)) < 0) ++sum.negative;
         irradiance(*method.evaluators[e], c, normals_, read);
         for (std::size_t j = 0; j < k_normals; ++j) {
-            const double off = luminance(colour_at(read, j) - colour_at(truth, j));
+            const double off = luminance(colour_at(read, j) - colour_at(reference, j));
             (j == 0 ? sum.at_normal : sum.tilted) += off * off;
         }
     }
@@ -244,7 +245,7 @@ void BakeStudy::compare(const Subject& method, std::span<const Rgb> c, ColourVie
 BakedCodecs BakeStudy::result() const {
     BakedCodecs result;
     double mean = 0;
-    std::vector<Sums> totals(readings_);
+    std::vector<Sums> totals(evaluations_);
     for (const Part& part : parts_) {
         result.texels += part.texels;
         mean += part.mean;
@@ -257,7 +258,7 @@ BakedCodecs BakeStudy::result() const {
     const auto count = static_cast<double>(result.texels);
     mean /= count;
     for (const Subject& method : methods_) {
-        const Sums* sum = totals.data() + method.first_reading;
+        const Sums* sum = totals.data() + method.first_evaluation;
         const auto traits = coefficient_traits(*method.encoder);
         for (const Storage* storage : method.storages) {
             const double bytes = storage == nullptr ? 12.0 * static_cast<double>(method.encoder->basis().size())
@@ -276,8 +277,8 @@ BakedCodecs BakeStudy::result() const {
     return result;
 }
 
-/// The best reading of each basis and encoder, ordered by error at tilted normals.
-std::vector<BakedCodec> best_readings(std::vector<BakedCodec> codecs) {
+/// The best evaluator of each basis and encoder, ordered by error at tilted normals.
+std::vector<BakedCodec> best_evaluators(std::vector<BakedCodec> codecs) {
     std::stable_sort(codecs.begin(), codecs.end(),
                      [](const BakedCodec& a, const BakedCodec& b) { return a.tilted < b.tilted; });
     std::set<std::pair<std::string, std::string>> seen;
@@ -287,36 +288,36 @@ std::vector<BakedCodec> best_readings(std::vector<BakedCodec> codecs) {
 
 }  // namespace
 
-Result<BakedCodecs> judge_baked_codecs(const Scene& scene, const BakeOptions& bake, const BakeStudyOptions& options,
-                                       const std::atomic<bool>& stop, const std::function<void(double)>& progress) {
+Result<BakedCodecs> measure_baked_codecs(const Scene& scene, const BakeOptions& bake, const BakeStudyOptions& options,
+                                         const std::atomic<bool>& stop, const std::function<void(double)>& progress) {
     const auto setup = BakeSetup::make(scene, bake);
     if (!setup) return setup.error();
     BakeStudy study(**setup, options);
     if (auto status = study.find_methods(); !status) return status.error();
     study.run(stop, progress);
     if (stop) return Error{"stopped"};
-    BakedCodecs judged = study.result();
-    if (judged.texels == 0) return Error{"no texel of the scene is valid and lit"};
-    return judged;
+    BakedCodecs measured = study.result();
+    if (measured.texels == 0) return Error{"no texel of the scene is valid and lit"};
+    return measured;
 }
 
 Result<Study> study_bake(const Scene& scene, const BakeOptions& bake, const BakeStudyOptions& options,
                          const std::atomic<bool>& stop, const std::function<void(double)>& progress) {
     BakeStudyOptions as_solved = options;
     as_solved.storages.clear();
-    const auto judged = judge_baked_codecs(scene, bake, as_solved, stop, progress);
-    if (!judged) return judged.error();
+    const auto measured = measure_baked_codecs(scene, bake, as_solved, stop, progress);
+    if (!measured) return measured.error();
     Study study;
     study.name = "bake";
     study.title = "Irradiance of baked codecs against a long reference";
     study.summary = fmt::format(
         "{} texels, {} samples each for the codecs and {} for the reference; RMS over texels of the "
         "luminance of E, over its mean. Normals are tilted by up to 60 degrees.",
-        judged->texels, options.samples, options.reference_samples);
+        measured->texels, options.samples, options.reference_samples);
     Study::Table& table = study.tables.emplace_back();
     table.title = study.title;
     table.columns = {"codec", "floats", "E at the normal", "E at tilted normals", "negative"};
-    for (const BakedCodec& c : best_readings(judged->codecs))
+    for (const BakedCodec& c : best_evaluators(measured->codecs))
         table.rows.push_back({c.name.str(), fmt::format("{:.0f}", c.bytes / 4), table_number(c.at_normal, 3),
                               table_number(c.tilted, 3), fmt::format("{:.2f} %", 100 * c.negative_share)});
     return study;

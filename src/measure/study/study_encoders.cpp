@@ -45,11 +45,10 @@ std::vector<std::string> all_encoders(const std::shared_ptr<const Basis>& basis)
 void add_basis(Study& study, const std::vector<Sampling>& columns,
                const std::vector<std::vector<Convergence>>& by_column, const std::string& basis) {
     const auto& counts = by_column[0][0].samples;
-    Study::Table relative{
-        basis + ": excess |b - b*|_G / |b*|_G at N = " + count_list(counts),
-        "b* is what the encoder strives for: least squares, its non-negative form, or the joint norm.",
-        {"encoder"},
-        {}};
+    Study::Table relative{basis + ": excess |b - b*|_G / |b*|_G at N = " + count_list(counts),
+                          "b* is the limit of the encoder: least squares, its non-negative form, or the joint norm.",
+                          {"encoder"},
+                          {}};
     Study::Table absolute{basis + ": excess as root mean square radiance [W/(m^2 sr)] at N = " + count_list(counts),
                           "The same, not divided by |b*|.",
                           {"encoder"},
@@ -79,12 +78,23 @@ void add_basis(Study& study, const std::vector<Sampling>& columns,
 
 }  // namespace
 
+std::vector<std::string> default_study_bases() {
+    std::vector<std::string> names;
+    for (Domain domain : {Domain::sphere, Domain::hemisphere})
+        for (const auto& name : basis_names())
+            if (make_basis(name).value()->domain() == domain) {
+                names.push_back(name);
+                break;
+            }
+    return names;
+}
+
 Result<Study> study_encoders(const Image& environment, const std::vector<std::string>& bases,
                              const EncoderStudyOptions& options, const Progress& progress) {
     Study study;
     study.name = "encoders";
     study.title = "Encoders at equal samples";
-    study.summary = "How far each encoder is from what it strives for after N samples, root mean square over " +
+    study.summary = "Distance of each encoder from its limit after N samples, root mean square over " +
                     std::to_string(options.repetitions) +
                     " repetitions. Path noise multiplies each sample by a lognormal factor of mean 1 and variance " +
                     table_number(options.noise_variance) + ".";

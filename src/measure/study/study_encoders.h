@@ -13,8 +13,11 @@ struct EncoderStudyOptions {
     double noise_variance = 3;
 };
 
+/// The first listed basis of each domain.
+[[nodiscard]] std::vector<std::string> default_study_bases();
+
 /// For each basis one table of relative excess errors, and one of absolute ones (root mean square radiance), with
-/// every listed and unlisted encoder that suits it. `bases` (linear ones) and `environment` as for compare().
+/// every encoder, listed or not, that works with it. `bases` (linear ones) and `environment` as for compare().
 [[nodiscard]] Result<Study> study_encoders(const Image& environment, const std::vector<std::string>& bases,
                                            const EncoderStudyOptions& options = {}, const Progress& progress = {});
 

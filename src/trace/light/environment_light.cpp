@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "trace/directions.h"
+#include "core/sample/directions.h"
 
 namespace lobelia {
 namespace {

@@ -4,9 +4,9 @@
 
 #include <vector>
 
+#include "core/sample/sequence.h"
 #include "lobelia/environment.h"
 #include "lobelia/sampling.h"
-#include "trace/sequence.h"
 
 namespace lobelia {
 

@@ -4,7 +4,7 @@
 #include <cassert>
 #include <limits>
 
-#include "trace/directions.h"
+#include "core/sample/directions.h"
 
 namespace lobelia {
 namespace {
@@ -30,10 +30,11 @@ float range_window(float distance2, float range) {
     return std::clamp(1 - q * q, 0.0f, 1.0f);
 }
 
-/// KHR_lights_punctual's cone, at `cosine` to the spot's direction.
+/// The cone of KHR_lights_punctual at `cosine` to the spot's direction; equal angles make a hard edge.
 float spot_cone(const PunctualLight& light, float cosine) {
     const float inner = std::cos(light.inner_angle), outer = std::cos(light.outer_angle);
-    const float t = std::clamp((cosine - outer) / std::max(0.001f, inner - outer), 0.0f, 1.0f);
+    if (!(inner > outer)) return cosine >= outer ? 1 : 0;
+    const float t = std::clamp((cosine - outer) / (inner - outer), 0.0f, 1.0f);
     return t * t;
 }
 

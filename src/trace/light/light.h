@@ -5,7 +5,7 @@
 #include <optional>
 #include <span>
 
-#include "trace/directions.h"
+#include "core/sample/directions.h"
 #include "trace/light/environment_light.h"
 #include "trace/light/light_source.h"
 #include "trace/light/light_weights.h"

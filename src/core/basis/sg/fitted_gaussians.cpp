@@ -43,6 +43,11 @@ class FittedSpecular final : public SpecularEvaluator {
 
 }  // namespace
 
+std::shared_ptr<const FittedBasis> fitted_gaussians(std::size_t count) {
+    assert(count >= 1 && count <= k_most_fitted_lobes);
+    return std::make_shared<FittedGaussians>(count, std::make_shared<OctahedralTexels>(k_lobe_fit_resolution));
+}
+
 Result<std::shared_ptr<const Basis>> FittedGaussians::from_name(std::string_view name) {
     constexpr std::string_view prefix = "sgfit";
     if (!name.starts_with(prefix)) return std::shared_ptr<const Basis>();
@@ -92,13 +97,6 @@ void FittedGaussians::radiance(std::span<const Rgb> c, DirectionView directions,
 
 std::string FittedGaussians::description() const {
     return std::to_string(count_) + " spherical Gaussians with fitted axes and sharpness";
-}
-
-BasisNotes FittedGaussians::notes() const {
-    return {"Fitted spherical Gaussians",
-            "L(w) = sum of a_j exp(v_j . w - |v_j|), a_j >= 0, v_j the axis times the sharpness; 6 floats a lobe",
-            "radiance of a few sources, however sharp, far below other bases at equal floats; never negative",
-            "baking many texels (a search for each); filtering, where neighbours' lobes differ"};
 }
 
 std::shared_ptr<const Evaluator> FittedGaussians::evaluator(std::string_view name) const {

@@ -22,11 +22,8 @@ class FittedGaussians final : public FittedBasis {
     [[nodiscard]] std::shared_ptr<const LinearBasis> accumulated() const override { return texels_; }
     void fit(std::span<const Rgb> accumulated, std::span<Rgb> c) const override;
     [[nodiscard]] bool is_continuous() const override { return false; }
-    /// Texels need no Gram matrix.
-    [[nodiscard]] std::vector<std::string> listed_encoders() const override { return {"moments"}; }
     [[nodiscard]] std::string name() const override { return "sgfit" + std::to_string(count_); }
     [[nodiscard]] std::string description() const override;
-    [[nodiscard]] BasisNotes notes() const override;
     [[nodiscard]] Domain domain() const override { return Domain::sphere; }
     /// Those of SgIrradiance that hold for any sharpness.
     [[nodiscard]] std::vector<std::string> evaluator_names() const override {

@@ -2,6 +2,7 @@
 #include "core/basis/sg/sg_irradiance.h"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <array>
 #include <type_traits>
 
@@ -12,41 +13,60 @@
 // NOLINTNEXTLINE: after highway.h
 #include <hwy/contrib/math/math-inl.h>
 
+// NOLINTNEXTLINE: after highway.h
+#include "core/math/lanes-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace lobelia::HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
-using D = hn::CappedTag<float, k_lanes>;
-using V = hn::Vec<D>;
 
-// Each formula reads the constants `k` of its lobe and the cosine `c` between normal and axis, and gives E of the unit
-// lobe. What the constants are stands beside the function of the same name in the second half of this file.
+// Each formula takes the constants k(0), k(1), ... of a lobe and the cosine `c` between normal and axis, and gives E of
+// the unit lobe. The functions of the same names in the second half of this file compute the constants. Lanes run over
+// normals, for one lobe, or over lobes, at one normal.
+
+/// The constants of one lobe, in all lanes.
+struct OneLobe {
+    std::span<const float> constants;
+    [[nodiscard]] std::size_t size() const { return constants.size(); }
+    HWY_INLINE V operator()(std::size_t i) const { return hn::Set(D(), constants[i]); }
+};
+
+/// The constants of the lobes from `first` on, one in each lane.
+struct ManyLobes {
+    const float* rows;
+    std::size_t stride, count, first;
+    [[nodiscard]] std::size_t size() const { return count; }
+    HWY_INLINE V operator()(std::size_t i) const { return hn::LoadU(D(), rows + i * stride + first); }
+};
 
 /// exp(x), x <= 0, never less than e^-70: products with it stay normal floats, with others a machine is slow.
 HWY_INLINE V decay(D d, V x) { return hn::Exp(d, hn::Max(x, hn::Set(d, -70.0f))); }
 
 struct InnerProduct {
-    static HWY_INLINE V eval(D d, std::span<const float> k, V c) {
+    template <class K>
+    static HWY_INLINE V eval(D d, const K& k, V c) {
         // |l1 p + l2 n|, kept away from 0 where (1 - e^-2u) / u is 2.
-        const V u = hn::Sqrt(hn::Max(hn::MulAdd(hn::Set(d, k[1]), c, hn::Set(d, k[0])), hn::Set(d, 1e-12f)));
+        const V u = hn::Sqrt(hn::Max(hn::MulAdd(k(1), c, k(0)), hn::Set(d, 1e-12f)));
         const V decay = hn::Neg(hn::Expm1(d, hn::Mul(hn::Set(d, -2.0f), u)));
-        return hn::Div(hn::Mul(hn::Mul(hn::Set(d, k[3]), hn::Exp(d, hn::Sub(u, hn::Set(d, k[2])))), decay), u);
+        return hn::Div(hn::Mul(hn::Mul(k(3), hn::Exp(d, hn::Sub(u, k(2)))), decay), u);
     }
 };
 
 struct Punctual {
-    static HWY_INLINE V eval(D d, std::span<const float> k, V c) {
-        return hn::Mul(hn::Set(d, k[0]), hn::Max(c, hn::Zero(d)));
+    template <class K>
+    static HWY_INLINE V eval(D d, const K& k, V c) {
+        return hn::Mul(k(0), hn::Max(c, hn::Zero(d)));
     }
 };
 
 struct Hill {
-    static HWY_INLINE V eval(D d, std::span<const float> k, V c) {
-        const V scale = hn::Set(d, k[0]), bias = hn::Set(d, k[1]), x1 = hn::Set(d, k[2]);
+    template <class K>
+    static HWY_INLINE V eval(D d, const K& k, V c) {
+        const V scale = k(0), bias = k(1), x1 = k(2);
         const V x0 = hn::Mul(hn::Set(d, 0.36f), c);
         const V knee = hn::Add(x0, x1);
         const V clamped = hn::Min(hn::Max(c, hn::Zero(d)), hn::Set(d, 1.0f));
-        const V y = hn::IfThenElse(hn::Le(hn::Abs(x0), x1), hn::Mul(hn::Mul(knee, knee), hn::Set(d, k[3])), clamped);
-        return hn::Mul(hn::MulAdd(scale, y, bias), hn::Set(d, k[4]));
+        const V y = hn::IfThenElse(hn::Le(hn::Abs(x0), x1), hn::Mul(hn::Mul(knee, knee), k(3)), clamped);
+        return hn::Mul(hn::MulAdd(scale, y, bias), k(4));
     }
 };
 
@@ -66,17 +86,18 @@ struct Meder {
         const V lower = hn::Mul(upper, hn::Exp(d, hn::Neg(sharpness)));
         return hn::MulAdd(blend, hn::Sub(upper, lower), lower);
     }
-    static HWY_INLINE V eval(D d, std::span<const float> k, V c) {
+    template <class K>
+    static HWY_INLINE V eval(D d, const K& k, V c) {
         // max(0, cos) is about 32.7080 SG(.0315) - 31.7003 on the hemisphere; the first times the lobe is a lobe.
-        const V sharpness = hn::Set(d, k[0]), cosine_sharpness = hn::Set(d, k[1]);
+        const V sharpness = k(0), cosine_sharpness = k(1);
         // u^2 = (l1 - l2)^2 + 2 l1 l2 (1 + c), kept away from 0 where a lobe as wide as the cosine's faces it.
         const V one = hn::Set(d, 1.0f), above = hn::Max(hn::Add(one, c), hn::Zero(d));
-        const V u = hn::Sqrt(hn::MulAdd(hn::Set(d, k[2]), above, hn::Set(d, k[3])));
+        const V u = hn::Sqrt(hn::MulAdd(k(2), above, k(3)));
         const V cosine = hn::Div(hn::MulAdd(sharpness, c, cosine_sharpness), u);
         // u - l1 - l2 = -2 l1 l2 (1 - c) / (u + l1 + l2), without a cancellation that 32.7 would blow up.
         const V below = hn::Max(hn::Sub(one, c), hn::Zero(d));
         const V log_amplitude =
-            hn::Neg(hn::Div(hn::Mul(hn::Set(d, k[2]), below), hn::Add(u, hn::Add(sharpness, cosine_sharpness))));
+            hn::Neg(hn::Div(hn::Mul(k(2), below), hn::Add(u, hn::Add(sharpness, cosine_sharpness))));
         const V product = hn::Mul(hn::Exp(d, log_amplitude), hemisphere(d, u, cosine));
         return hn::Sub(hn::Mul(hn::Set(d, 32.7080f), product),
                        hn::Mul(hn::Set(d, 31.7003f), hemisphere(d, sharpness, c)));
@@ -95,49 +116,53 @@ struct Tokuyoshi {
         const V tail = hn::Mul(t, decay(d, hn::NegMulAdd(z, z, fit)));
         return hn::IfThenElse(hn::Lt(x, hn::Zero(d)), hn::Sub(hn::Set(d, 2.0f), tail), tail);
     }
-    static HWY_INLINE V eval(D d, std::span<const float> k, V c) {
-        const V t = hn::Set(d, k[0]), c2 = hn::Mul(c, c), t2 = hn::Mul(t, t);
-        const V smooth = hn::MulAdd(c, erfc(d, hn::Neg(hn::Mul(t, c))), hn::Set(d, k[1]));
+    template <class K>
+    static HWY_INLINE V eval(D d, const K& k, V c) {
+        const V t = k(0), c2 = hn::Mul(c, c), t2 = hn::Mul(t, t);
+        const V smooth = hn::MulAdd(c, erfc(d, hn::Neg(hn::Mul(t, c))), k(1));
         const V gauss =
             hn::Mul(decay(d, hn::Neg(hn::Mul(t2, c2))), hn::Expm1(d, hn::Mul(t2, hn::Sub(c2, hn::Set(d, 1.0f)))));
-        const V blend = hn::NegMulAdd(gauss, hn::Set(d, k[2]), hn::Mul(hn::Set(d, 0.5f), smooth));
-        return hn::MulAdd(blend, hn::Set(d, k[4]), hn::Set(d, k[3]));
+        const V blend = hn::NegMulAdd(gauss, k(2), hn::Mul(hn::Set(d, 0.5f), smooth));
+        return hn::MulAdd(blend, k(4), k(3));
     }
 };
 
 /// N1 and N2: I (L c / 2 + sqrt(f0^2 e^(-x (k + m x)) + x r)), x = c^2, clamped at 0.
 struct OddExact {
-    static HWY_INLINE V eval(D d, std::span<const float> k, V c) {
+    template <class K>
+    static HWY_INLINE V eval(D d, const K& k, V c) {
         const V x = hn::Mul(c, c);
-        const V exponent = hn::Mul(hn::Neg(x), hn::MulAdd(hn::Set(d, k[3]), x, hn::Set(d, k[2])));
-        const V even = hn::Sqrt(hn::MulAdd(hn::Set(d, k[1]), decay(d, exponent), hn::Mul(x, hn::Set(d, k[4]))));
-        return hn::Max(hn::MulAdd(hn::Set(d, k[0]), c, even), hn::Zero(d));
+        const V exponent = hn::Mul(hn::Neg(x), hn::MulAdd(k(3), x, k(2)));
+        const V even = hn::Sqrt(hn::MulAdd(k(1), decay(d, exponent), hn::Mul(x, k(4))));
+        return hn::Max(hn::MulAdd(k(0), c, even), hn::Zero(d));
     }
 };
 
 struct Polynomial {
-    static HWY_INLINE V eval(D d, std::span<const float> k, V c) {
+    template <class K>
+    static HWY_INLINE V eval(D, const K& k, V c) {
         const V x = hn::Mul(c, c);
-        V even = hn::Set(d, k[4]);
-        for (std::size_t i = 3; i >= 1; --i) even = hn::MulAdd(even, x, hn::Set(d, k[i]));
-        return hn::MulAdd(hn::Set(d, k[0]), c, even);
+        V even = k(4);
+        for (std::size_t i = 3; i >= 1; --i) even = hn::MulAdd(even, x, k(i));
+        return hn::MulAdd(k(0), c, even);
     }
 };
 
 /// Clenshaw's sum of a Legendre series; `k` holds the triples (term, (2l + 1) / (l + 1), (l + 1) / (l + 2)).
 struct Exact {
-    static HWY_INLINE V eval(D d, std::span<const float> k, V c) {
+    template <class K>
+    static HWY_INLINE V eval(D d, const K& k, V c) {
         V e[1];
         eval_many<1>(d, k, &c, e);
         return e[0];
     }
     /// Each step waits for the one before it: several sums side by side fill the wait.
-    template <std::size_t Count>
-    static HWY_INLINE void eval_many(D d, std::span<const float> k, const V* c, V* e) {
+    template <std::size_t Count, class K>
+    static HWY_INLINE void eval_many(D d, const K& k, const V* c, V* e) {
         V b1[Count], b2[Count];
         for (std::size_t n = 0; n < Count; ++n) b1[n] = b2[n] = hn::Zero(d);
         for (std::size_t i = k.size(); i >= 3; i -= 3) {
-            const V term = hn::Set(d, k[i - 3]), slope = hn::Set(d, k[i - 2]), back = hn::Set(d, k[i - 1]);
+            const V term = k(i - 3), slope = k(i - 2), back = k(i - 1);
             for (std::size_t n = 0; n < Count; ++n) {
                 const V b0 = hn::MulAdd(hn::Mul(slope, c[n]), b1[n], hn::NegMulAdd(back, b2[n], term));
                 b2[n] = b1[n];
@@ -149,13 +174,13 @@ struct Exact {
 };
 
 template <class Formula>
-void fill_row(const Vec3& axis, std::span<const float> k, DirectionView block, float* row) {
+void fill_row(const Vec3& axis, std::span<const float> constants, DirectionView block, float* row) {
     const D d;
+    const OneLobe k{constants};
     const V px = hn::Set(d, axis.x), py = hn::Set(d, axis.y), pz = hn::Set(d, axis.z);
     const auto cosine = [&](std::size_t j) HWY_ATTR {
-        return hn::MulAdd(
-            px, hn::LoadU(d, block.channel(0) + j),
-            hn::MulAdd(py, hn::LoadU(d, block.channel(1) + j), hn::Mul(pz, hn::LoadU(d, block.channel(2) + j))));
+        const Lanes3 n = load(d, block, j);
+        return hn::MulAdd(px, n.x, hn::MulAdd(py, n.y, hn::Mul(pz, n.z)));
     };
     std::size_t j = 0;
     if constexpr (std::is_same_v<Formula, Exact>) {
@@ -170,26 +195,57 @@ void fill_row(const Vec3& axis, std::span<const float> k, DirectionView block, f
     for (; j < block.size; j += hn::Lanes(d)) hn::StoreU(Formula::eval(d, k, cosine(j)), d, row + j);
 }
 
-void FillRow(SgIrradiance kind, const Vec3& axis, std::span<const float> k, DirectionView block, float* row) {
+/// Calls call(formula) with the formula of that kind.
+template <class Call>
+HWY_INLINE void with_formula(SgIrradiance kind, const Call& call) {
     switch (kind) {
         case SgIrradiance::inner_product:
-            return fill_row<InnerProduct>(axis, k, block, row);
+            return call(InnerProduct());
         case SgIrradiance::punctual:
-            return fill_row<Punctual>(axis, k, block, row);
+            return call(Punctual());
         case SgIrradiance::hill:
-            return fill_row<Hill>(axis, k, block, row);
+            return call(Hill());
         case SgIrradiance::meder:
-            return fill_row<Meder>(axis, k, block, row);
+            return call(Meder());
         case SgIrradiance::tokuyoshi:
-            return fill_row<Tokuyoshi>(axis, k, block, row);
+            return call(Tokuyoshi());
         case SgIrradiance::odd_exact:
         case SgIrradiance::odd_exact_2:
-            return fill_row<OddExact>(axis, k, block, row);
+            return call(OddExact());
         case SgIrradiance::polynomial:
-            return fill_row<Polynomial>(axis, k, block, row);
+            return call(Polynomial());
         case SgIrradiance::exact:
-            return fill_row<Exact>(axis, k, block, row);
+            return call(Exact());
     }
+}
+
+void FillRow(SgIrradiance kind, const Vec3& axis, std::span<const float> k, DirectionView block, float* row) {
+    with_formula(kind, [&](auto formula) HWY_ATTR { fill_row<decltype(formula)>(axis, k, block, row); });
+}
+
+/// All `count` lobes at one normal. `rows` are their axes x, y, z and their `constants` constants, `stride` floats from
+/// row to row, padded to whole lanes as `weights` are.
+void WeightsAt(SgIrradiance kind, const float* rows, std::size_t stride, std::size_t count, std::size_t constants,
+               const Vec3& n, float* weights) {
+    with_formula(kind, [&](auto formula) HWY_ATTR {
+        const D d;
+        for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
+            const Lanes3 p = {hn::LoadU(d, rows + i), hn::LoadU(d, rows + stride + i),
+                              hn::LoadU(d, rows + 2 * stride + i)};
+            const ManyLobes k{rows + 3 * stride, stride, constants, i};
+            hn::StoreU(decltype(formula)::eval(d, k, dot(d, n, p)), d, weights + i);
+        }
+    });
+}
+
+/// The sum of coefficients times these weights, for at most k_few_lobes lobes; `ambient` are the lobes whose weight is
+/// pi.
+Rgb IrradianceAt(SgIrradiance kind, const float* rows, std::size_t stride, std::size_t constants,
+                 std::span<const std::size_t> ambient, std::span<const Rgb> c, const Vec3& n) {
+    alignas(64) float weights[k_few_lobes];
+    WeightsAt(kind, rows, stride, c.size(), constants, n, weights);
+    for (const std::size_t i : ambient) weights[i] = static_cast<float>(k_pi);
+    return weighted_sum(weights, c.data(), c.size());
 }
 
 }  // namespace lobelia::HWY_NAMESPACE
@@ -199,6 +255,8 @@ HWY_AFTER_NAMESPACE();
 namespace lobelia {
 
 HWY_EXPORT(FillRow);
+HWY_EXPORT(WeightsAt);
+HWY_EXPORT(IrradianceAt);
 
 namespace {
 
@@ -362,6 +420,18 @@ SgIrradianceWeights::SgIrradianceWeights(SgIrradiance kind, std::vector<gaussian
             constants_.emplace_back(k.begin(), k.end());
         }
     }
+
+    // Lay axes and constants out for lanes that run over the lobes. Series end with terms of 0, which add nothing.
+    for (const auto& k : constants_) constant_count_ = std::max(constant_count_, k.size());
+    lobe_stride_ = round_up_to_lanes(lobes_.size());
+    lobe_rows_.resize((3 + constant_count_) * lobe_stride_);
+    for (std::size_t i = 0; i < lobes_.size(); ++i) {
+        const Vec3& axis = lobes_[i].axis;
+        std::vector<float> column = {axis.x, axis.y, axis.z};
+        column.insert(column.end(), constants_[i].begin(), constants_[i].end());
+        for (std::size_t k = 0; k < column.size(); ++k) lobe_rows_[k * lobe_stride_ + i] = column[k];
+        if (is_ambient(lobes_[i])) ambient_.push_back(i);
+    }
 }
 
 std::string SgIrradianceWeights::name() const { return std::string(info(kind_).name); }
@@ -380,6 +450,19 @@ void SgIrradianceWeights::values(DirectionView block, float* rows) const {
         else
             HWY_DYNAMIC_DISPATCH(FillRow)(kind_, lobes_[i].axis, constants_[i], block, row);
     }
+}
+
+void SgIrradianceWeights::values_at(Vec3 normal, float* values) const {
+    if (constant_count_ > 0) HWY_DYNAMIC_DISPATCH(WeightsAt)
+    (kind_, lobe_rows_.data(), lobe_stride_, lobes_.size(), constant_count_, normal, values);
+    for (const std::size_t i : ambient_) values[i] = static_cast<float>(k_pi);
+}
+
+Rgb SgIrradianceWeights::signed_irradiance_at(std::span<const Rgb> c, Vec3 normal) const {
+    assert(c.size() == size());
+    if (size() > k_few_lobes) return evaluate(*this, c, normal);
+    return HWY_DYNAMIC_DISPATCH(IrradianceAt)(kind_, lobe_rows_.data(), lobe_stride_, constant_count_, ambient_, c,
+                                              normal);
 }
 
 std::vector<float> sg_irradiance(SgIrradiance kind, double sharpness, std::span<const float> cosines) {

@@ -27,6 +27,9 @@ struct SgIrradianceInfo {
 [[nodiscard]] std::span<const SgIrradianceInfo> sg_irradiance_list();
 [[nodiscard]] std::optional<SgIrradiance> sg_irradiance_from_name(std::string_view name);
 
+/// Sets of at most this many lobes are evaluated at one normal on the stack; whole lanes of them.
+inline constexpr std::size_t k_few_lobes = 128;
+
 /// The irradiance of each unit lobe of a set at a normal. Ambient lobes (sharpness 0) give pi in every kind.
 class SgIrradianceWeights final : public LinearEvaluator {
   public:
@@ -35,11 +38,17 @@ class SgIrradianceWeights final : public LinearEvaluator {
     [[nodiscard]] Accuracy accuracy() const override;
     [[nodiscard]] std::size_t size() const override { return lobes_.size(); }
     void values(DirectionView block, float* rows) const override;
+    void values_at(Vec3 normal, float* values) const override;
+    [[nodiscard]] Rgb signed_irradiance_at(std::span<const Rgb> c, Vec3 normal) const override;
 
   private:
     SgIrradiance kind_;
-    std::vector<gaussian::Lobe> lobes_;
-    std::vector<std::vector<float>> constants_;  ///< per lobe, as the kind's formula reads them
+    std::vector<Lobe> lobes_;
+    std::vector<std::vector<float>> constants_;  ///< of each lobe, in the order of the kind's formula
+    // The same for lanes that run over lobes, as values_at reads them: rows x, y, z, then the constants.
+    std::vector<float> lobe_rows_;  ///< row k of lobe i at [k * lobe_stride_ + i]
+    std::size_t constant_count_ = 0, lobe_stride_ = 0;
+    std::vector<std::size_t> ambient_;  ///< lobes of sharpness 0
 };
 
 /// Minimax fit of the even part of E / I by q_0 + q_1 x + q_2 x^2 + ..., x = c^2, `count` coefficients.

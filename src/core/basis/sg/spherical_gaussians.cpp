@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <fstream>
 #include <optional>
 #include <sstream>
 
@@ -16,23 +15,38 @@
 // NOLINTNEXTLINE: after highway.h
 #include <hwy/contrib/math/math-inl.h>
 
+// NOLINTNEXTLINE: after highway.h
+#include "core/math/lanes-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace lobelia::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// row = exp(-lambda |s - p|^2 / 2), which keeps its precision at every sharpness, as lambda (s . p - 1) does not.
-/// Below e^-43 it is 0: its square is then a normal float or 0, since with others a machine is slow.
-void GaussianRow(const gaussian::Lobe& lobe, DirectionView block, float* row) {
-    const hn::CappedTag<float, k_lanes> d;
-    const auto px = hn::Set(d, lobe.axis.x), py = hn::Set(d, lobe.axis.y), pz = hn::Set(d, lobe.axis.z);
-    const auto scale = hn::Set(d, -0.5f * lobe.sharpness);
-    for (std::size_t j = 0; j < block.size; j += hn::Lanes(d)) {
-        const auto x = hn::Sub(hn::LoadU(d, block.channel(0) + j), px);
-        const auto y = hn::Sub(hn::LoadU(d, block.channel(1) + j), py);
-        const auto z = hn::Sub(hn::LoadU(d, block.channel(2) + j), pz);
-        const auto squared = hn::MulAdd(x, x, hn::MulAdd(y, y, hn::Mul(z, z)));
-        const auto exponent = hn::Mul(scale, squared);
-        hn::StoreU(hn::IfThenElseZero(hn::Gt(exponent, hn::Set(d, -43.0f)), hn::Exp(d, exponent)), d, row + j);
+/// exp(-lambda |s - p|^2 / 2), which keeps its precision at every sharpness, as lambda (s . p - 1) does not. Below
+/// e^-43 it is 0: its square is then a normal float or 0, since with others a machine is slow.
+HWY_INLINE V gaussian_value(D d, const Lanes3& s, const Lanes3& p, V sharpness) {
+    const V x = hn::Sub(s.x, p.x), y = hn::Sub(s.y, p.y), z = hn::Sub(s.z, p.z);
+    const V squared = hn::MulAdd(x, x, hn::MulAdd(y, y, hn::Mul(z, z)));
+    const V exponent = hn::Mul(hn::Mul(hn::Set(d, -0.5f), sharpness), squared);
+    return hn::IfThenElseZero(hn::Gt(exponent, hn::Set(d, -43.0f)), hn::Exp(d, exponent));
+}
+
+/// Lanes run over directions.
+void GaussianRow(const Lobe& lobe, DirectionView block, float* row) {
+    const D d;
+    const Lanes3 p = {hn::Set(d, lobe.axis.x), hn::Set(d, lobe.axis.y), hn::Set(d, lobe.axis.z)};
+    const V sharpness = hn::Set(d, lobe.sharpness);
+    for (std::size_t j = 0; j < block.size; j += hn::Lanes(d))
+        hn::StoreU(gaussian_value(d, load(d, block, j), p, sharpness), d, row + j);
+}
+
+/// Lanes run over `count` lobes: rows x, y, z, sharpness of `lobes`, whole lanes of them.
+void GaussiansAt(const float* const* lobes, std::size_t count, Vec3 direction, float* values) {
+    const D d;
+    const Lanes3 s = {hn::Set(d, direction.x), hn::Set(d, direction.y), hn::Set(d, direction.z)};
+    for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
+        const Lanes3 p = {hn::LoadU(d, lobes[0] + i), hn::LoadU(d, lobes[1] + i), hn::LoadU(d, lobes[2] + i)};
+        hn::StoreU(gaussian_value(d, s, p, hn::LoadU(d, lobes[3] + i)), d, values + i);
     }
 }
 
@@ -43,8 +57,7 @@ HWY_AFTER_NAMESPACE();
 namespace lobelia {
 
 HWY_EXPORT(GaussianRow);
-
-using gaussian::Lobe;
+HWY_EXPORT(GaussiansAt);
 
 namespace {
 
@@ -65,33 +78,63 @@ std::optional<float> parse_sharpness(std::string_view text) {
     return sharpness >= 0.01f && sharpness <= 1e4f ? std::optional(sharpness) : std::nullopt;
 }
 
-Result<std::vector<Lobe>> parse_lobes(std::istream& in, const std::string& path) {
-    std::vector<Lobe> lobes;
-    std::string line;
-    for (std::size_t number = 1; std::getline(in, line); ++number) {
-        line = line.substr(0, line.find('#'));
-        std::istringstream fields(line);
-        std::string word;
-        if (!(fields >> word)) continue;
-        const std::string place = path + ":" + std::to_string(number) + ": ";
-        if (word == "ambient") {
-            if (fields >> word) return Error{place + "nothing may follow \"ambient\""};
-            lobes.push_back({{0, 0, 1}, 0});
-        } else {
-            std::istringstream values(line);
-            Vec3 axis;
-            float sharpness = 0;
-            std::string rest;
-            if (!(values >> axis.x >> axis.y >> axis.z >> sharpness) || (values >> rest))
-                return Error{place + "expected \"x y z sharpness\" or \"ambient\""};
-            if (!(length(axis) > 1e-6f) || !(length(axis) < 1e6f)) return Error{place + "the axis has no direction"};
-            if (!(sharpness >= 0 && sharpness <= 1e4f)) return Error{place + "sharpness must be 0 to 10000"};
-            lobes.push_back({normalize(axis), sharpness});
-        }
-        if (lobes.size() > k_most_lobes) return Error{place + "more than " + std::to_string(k_most_lobes) + " lobes"};
+Result<Lobe> parse_lobe(const std::string& line) {
+    std::istringstream fields(line);
+    std::string word, rest;
+    fields >> word;
+    if (word == "ambient") {
+        if (fields >> rest) return Error{"nothing may follow \"ambient\""};
+        return Lobe{};
     }
-    if (lobes.empty()) return Error{path + ": no lobes in it"};
-    return lobes;
+    std::istringstream values(line);
+    Lobe lobe;
+    Vec3& axis = lobe.axis;
+    if (!(values >> axis.x >> axis.y >> axis.z >> lobe.sharpness) || (values >> rest))
+        return Error{"expected \"x y z sharpness\" or \"ambient\""};
+    if (!(length(axis) > 1e-6f) || !(length(axis) < 1e6f)) return Error{"the axis has no direction"};
+    if (!(lobe.sharpness >= 0 && lobe.sharpness <= 1e4f)) return Error{"sharpness must be 0 to 10000"};
+    // An axis that is unit already stays as it is, so that names give back the very lobes that they were made from.
+    if (std::abs(length(axis) - 1) > 1e-6f) axis = normalize(axis);
+    return lobe;
+}
+
+/// The shortest text that gives the number back.
+void append_number(std::string& text, float number) {
+    char digits[32];
+    text.append(digits, std::to_chars(digits, digits + sizeof digits, number).ptr);
+}
+
+/// The names "sg{...}" and "sgh{...}" hold lobes: these begin and end them, ';' is between lobes.
+std::string_view opening(Domain domain) { return domain == Domain::sphere ? "sg{" : "sgh{"; }
+
+std::string name_of(std::span<const Lobe> lobes, Domain domain) {
+    std::string name(opening(domain));
+    for (const Lobe& lobe : lobes) {
+        if (&lobe != &lobes.front()) name += ";";
+        if (lobe.sharpness == 0) {
+            name += "ambient";
+            continue;
+        }
+        for (const float number : {lobe.axis.x, lobe.axis.y, lobe.axis.z, lobe.sharpness}) {
+            if (name.back() != '{' && name.back() != ';') name += " ";
+            append_number(name, number);
+        }
+    }
+    return name + "}";
+}
+
+/// The inverse of name_of; nothing where the name is of another form.
+std::optional<Result<std::shared_ptr<const Basis>>> from_lobes_in_name(std::string_view name) {
+    for (const Domain domain : {Domain::sphere, Domain::hemisphere}) {
+        if (!name.starts_with(opening(domain)) || !name.ends_with("}")) continue;
+        std::string text(name.substr(opening(domain).size()));
+        text.pop_back();
+        std::replace(text.begin(), text.end(), ';', '\n');
+        auto lobes = parse_lobes(text, "lobes of the basis's name");
+        if (!lobes) return lobes.error();
+        return std::shared_ptr<const Basis>(spherical_gaussians(*std::move(lobes), domain));
+    }
+    return std::nullopt;
 }
 
 }  // namespace
@@ -124,10 +167,21 @@ std::vector<Lobe> spiral_hemisphere(std::size_t count) {
     return lobes;
 }
 
-Result<std::vector<Lobe>> read_lobes(const std::string& path) {
-    std::ifstream file(path);
-    if (!file) return Error{path + ": cannot be opened as a set of lobes"};
-    return parse_lobes(file, path);
+Result<std::vector<Lobe>> parse_lobes(std::string_view text, std::string_view source) {
+    std::vector<Lobe> lobes;
+    std::istringstream in{std::string(text)};
+    std::string line;
+    for (std::size_t number = 1; std::getline(in, line); ++number) {
+        line = line.substr(0, line.find('#'));
+        if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
+        const auto lobe = parse_lobe(line);
+        const std::string place = std::string(source) + ":" + std::to_string(number) + ": ";
+        if (!lobe) return Error{place + lobe.error().message};
+        lobes.push_back(*lobe);
+        if (lobes.size() > k_most_lobes) return Error{place + "more than " + std::to_string(k_most_lobes) + " lobes"};
+    }
+    if (lobes.empty()) return Error{std::string(source) + ": it holds no lobes"};
+    return lobes;
 }
 
 void gaussian_row(const Lobe& lobe, DirectionView block, float* row) {
@@ -135,24 +189,42 @@ void gaussian_row(const Lobe& lobe, DirectionView block, float* row) {
 }
 
 SphericalGaussians::SphericalGaussians(std::string name, std::vector<Lobe> lobes, Domain domain)
-    : name_(std::move(name)), lobes_(std::move(lobes)), domain_(domain) {}
+    : name_(std::move(name)), lobes_(std::move(lobes)), domain_(domain), rows_(lobes_.size()) {
+    for (std::size_t i = 0; i < lobes_.size(); ++i) {
+        set_entry(rows_.view().channels<3>(0), i, lobes_[i].axis);
+        rows_.channel(3)[i] = lobes_[i].sharpness;
+    }
+}
+
+std::shared_ptr<const LinearBasis> spherical_gaussians(std::size_t count, const GaussianOptions& options) {
+    assert(count >= 1 && count <= k_most_lobes);
+    const bool whole = options.domain == Domain::sphere, ambient = options.ambient == GaussianOptions::Ambient::one;
+    assert(whole || !ambient);
+    auto lobes = whole ? vogel_sphere(count) : spiral_hemisphere(count);
+    std::string name = "sg" + std::to_string(count) + (whole ? ambient ? "a" : "" : "h");
+    if (options.sharpness) {
+        for (Lobe& lobe : lobes) lobe.sharpness = *options.sharpness;
+        name += "@";
+        append_number(name, *options.sharpness);
+    }
+    if (ambient) lobes.push_back({});
+    return std::make_shared<SphericalGaussians>(std::move(name), std::move(lobes), options.domain);
+}
+
+std::shared_ptr<const LinearBasis> spherical_gaussians(std::vector<Lobe> lobes, Domain domain) {
+    assert(!lobes.empty() && lobes.size() <= k_most_lobes);
+    std::string name = name_of(lobes, domain);
+    return std::make_shared<SphericalGaussians>(std::move(name), std::move(lobes), domain);
+}
 
 Result<std::shared_ptr<const Basis>> SphericalGaussians::from_name(std::string_view name) {
-    const auto make = [&](std::vector<Lobe> lobes, Domain domain) -> std::shared_ptr<const Basis> {
-        return std::make_shared<SphericalGaussians>(std::string(name), std::move(lobes), domain);
-    };
     const std::shared_ptr<const Basis> none;
-
-    // A set from a file.
-    for (const auto& [prefix, domain] : {std::pair{"sg:", Domain::sphere}, std::pair{"sgh:", Domain::hemisphere}})
-        if (name.starts_with(prefix)) {
-            auto lobes = read_lobes(std::string(name.substr(std::string_view(prefix).size())));
-            if (!lobes) return lobes.error();
-            return make(*std::move(lobes), domain);
-        }
+    if (!name.starts_with("sg")) return none;
+    if (auto basis = from_lobes_in_name(name)) return *std::move(basis);
+    if (name.starts_with("sg:") || name.starts_with("sgh:"))
+        return Error{"files of lobes (sg:FILE) are opened for the command line alone; the name sg{...} holds lobes"};
 
     // A generated set: sg, a number, and what kind of set.
-    if (!name.starts_with("sg")) return none;
     std::size_t count = 0;
     const auto [end, error] = std::from_chars(name.data() + 2, name.data() + name.size(), count);
     if (error == std::errc::invalid_argument) return none;
@@ -160,23 +232,25 @@ Result<std::shared_ptr<const Basis>> SphericalGaussians::from_name(std::string_v
         return Error{"basis \"" + std::string(name) + "\": the number of lobes must be 1 to " +
                      std::to_string(k_most_lobes)};
     std::string_view kind = name.substr(static_cast<std::size_t>(end - name.data()));
-    std::optional<float> sharpness;
+    GaussianOptions options;
     if (const auto at = kind.find('@'); at != std::string_view::npos) {
-        const auto parsed = parse_sharpness(kind.substr(at + 1));
-        if (!parsed) return Error{"basis \"" + std::string(name) + "\": the sharpness after @ must be 0.01 to 10000"};
-        sharpness = *parsed;
+        options.sharpness = parse_sharpness(kind.substr(at + 1));
+        if (!options.sharpness)
+            return Error{"basis \"" + std::string(name) + "\": the sharpness after @ must be 0.01 to 10000"};
         kind = kind.substr(0, at);
     }
     if (!kind.empty() && kind != "a" && kind != "h") return none;
-    auto lobes = kind == "h" ? spiral_hemisphere(count) : vogel_sphere(count);
-    if (sharpness)
-        for (Lobe& lobe : lobes) lobe.sharpness = *sharpness;
-    if (kind == "a") lobes.push_back({{0, 0, 1}, 0});
-    return make(std::move(lobes), kind == "h" ? Domain::hemisphere : Domain::sphere);
+    if (kind == "a") options.ambient = GaussianOptions::Ambient::one;
+    if (kind == "h") options.domain = Domain::hemisphere;
+    return std::shared_ptr<const Basis>(spherical_gaussians(count, options));
 }
 
 void SphericalGaussians::values(DirectionView block, float* rows) const {
     for (std::size_t i = 0; i < lobes_.size(); ++i) gaussian_row(lobes_[i], block, rows + i * k_block_size);
+}
+
+void SphericalGaussians::values_at(Vec3 direction, float* values) const {
+    HWY_DYNAMIC_DISPATCH(GaussiansAt)(rows_.view().pointers.data(), lobes_.size(), direction, values);
 }
 
 std::string SphericalGaussians::description() const {
@@ -189,14 +263,6 @@ std::string SphericalGaussians::description() const {
     if (high->sharpness != low->sharpness) text << " to " << high->sharpness;
     if (low->sharpness == 0) text << " (0 is ambient)";
     return text.str();
-}
-
-BasisNotes SphericalGaussians::notes() const {
-    return {"Spherical Gaussians",
-            "L(w) = sum of c_i exp(lambda_i (w . p_i - 1)), on fixed axes p_i with fixed sharpness lambda_i",
-            "radiance that stays positive (with a non-negative encoder); glossy reflection, since a lobe times a lobe "
-            "is a lobe; as many lobes as the budget allows",
-            "irradiance by plain least squares (the joint norm mends it); turning, as the axes are fixed"};
 }
 
 Matrix SphericalGaussians::gram() const {

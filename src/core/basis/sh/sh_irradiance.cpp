@@ -6,8 +6,9 @@
 #include <limits>
 #include <numeric>
 
-#include "core/math/zonal_quadratic.h"
 #include "core/math/harmonics_degree_2.h"
+#include "core/math/scratch.h"
+#include "core/math/zonal_quadratic.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/basis/sh/sh_irradiance.cpp"
@@ -53,11 +54,13 @@ void for_each_coefficient(std::size_t degree, const Visit& visit) {
         for (std::size_t i = l * l; i < (l + 1) * (l + 1); ++i) visit(l, i);
 }
 
-std::vector<Rgb> damped(std::size_t degree, std::span<const Rgb> c, std::span<const double> factors) {
-    std::vector<Rgb> result(c.size());
+/// The coefficients times the factors of their bands, in `memory`, which has three floats for each.
+std::span<const Rgb> damped(std::size_t degree, std::span<const Rgb> c, std::span<const double> factors,
+                            const Scratch& memory) {
+    Rgb* const result = new (memory.data()) Rgb[c.size()];
     for_each_coefficient(degree,
                          [&](std::size_t l, std::size_t i) { result[i] = c[i] * static_cast<float>(factors[l]); });
-    return result;
+    return {result, c.size()};
 }
 
 std::vector<double> convolved(std::vector<double> window) {
@@ -72,6 +75,7 @@ class BandFactors final : public LinearEvaluator {
         : name_(std::move(name)),
           harmonics_(window.size() - 1),
           factors_(convolved(std::move(window))),
+          float_factors_(factors_.begin(), factors_.end()),
           negative_(negative),
           reading_(reading) {}
     [[nodiscard]] std::string name() const override { return name_; }
@@ -87,14 +91,24 @@ class BandFactors final : public LinearEvaluator {
             for (std::size_t j = 0; j < block.size; ++j) rows[i * k_block_size + j] *= scale;
         });
     }
+    void values_at(Vec3 direction, float* values) const override {
+        harmonics_.values_at(direction, values);
+        for_each_coefficient(harmonics_.degree(),
+                             [&](std::size_t l, std::size_t i) { values[i] *= float_factors_[l]; });
+    }
     void signed_irradiance(std::span<const Rgb> c, DirectionView normals, MutableColourView out) const override {
-        harmonics_.sum(damped(harmonics_.degree(), c, factors_), normals, out);
+        const Scratch memory(3 * c.size());
+        harmonics_.sum(damped(harmonics_.degree(), c, factors_, memory), normals, out);
+    }
+    [[nodiscard]] Rgb signed_irradiance_at(std::span<const Rgb> c, Vec3 normal) const override {
+        return harmonics_.sum_at(c, float_factors_, normal);
     }
 
   private:
     std::string name_;
     Harmonics harmonics_;
     std::vector<double> factors_;
+    std::vector<float> float_factors_;
     Negative negative_;
     Reading reading_;
 };
@@ -230,7 +244,8 @@ Model::Read dering_reader(std::size_t degree) {
     return
         [harmonics = Harmonics(degree), degree](std::span<const Rgb> c, DirectionView normals, MutableColourView out) {
             const double w = sufficient_window(degree, c);
-            harmonics.sum(damped(degree, c, convolved(dering_window(degree, w))), normals, out);
+            const Scratch memory(3 * c.size());
+            harmonics.sum(damped(degree, c, convolved(dering_window(degree, w)), memory), normals, out);
         };
 }
 
@@ -268,9 +283,10 @@ double least_value(std::size_t degree, std::span<const Rgb> c) { return LeastVal
 
 double sufficient_window(std::size_t degree, std::span<const Rgb> c) {
     LeastValue least(degree);
+    const Scratch memory(3 * c.size());
     const auto is_enough = [&](double inverse) {
         const auto factors = convolved(dering_window(degree, 1 / inverse));
-        return least(damped(degree, c, factors)) >= 0;
+        return least(damped(degree, c, factors, memory)) >= 0;
     };
     // At w = 1 the mean alone is left; bisect 1 / w between that and no window.
     const double none = std::numeric_limits<double>::infinity();

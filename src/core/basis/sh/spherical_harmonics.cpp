@@ -8,6 +8,11 @@ constexpr std::size_t k_highest_degree = 8;
 
 }  // namespace
 
+std::shared_ptr<const LinearBasis> spherical_harmonics(std::size_t degree) {
+    assert(degree >= 1 && degree <= k_highest_degree);
+    return std::make_shared<SphericalHarmonics>(degree);
+}
+
 Result<std::shared_ptr<const Basis>> SphericalHarmonics::from_name(std::string_view name) {
     if (name.size() != 3 || !name.starts_with("sh") || name[2] < '1' ||
         name[2] > '0' + static_cast<int>(k_highest_degree))
@@ -20,14 +25,6 @@ std::string SphericalHarmonics::name() const { return "sh" + std::to_string(harm
 std::string SphericalHarmonics::description() const {
     return "spherical harmonics of degree " + std::to_string(harmonics_.degree()) + ", " + std::to_string(size()) +
            " coefficients";
-}
-
-BasisNotes SphericalHarmonics::notes() const {
-    return {"Spherical harmonics",
-            "L(w) = sum over l and m of c_lm Y_lm(w), orthonormal and real, all signs plus, index l^2 + l + m",
-            "smooth light and its irradiance (degree 2 is off by a few per cent); turning; adding and filtering, since "
-            "they are linear and know no axis of their own",
-            "small and bright sources: they ring, radiance and irradiance turn negative opposite to the sun"};
 }
 
 Matrix SphericalHarmonics::gram() const {

@@ -4,13 +4,13 @@
 
 #include "core/basis/sh/sh_irradiance.h"
 #include "core/basis/sh/sh_specular.h"
-#include "lobelia/result.h"
+#include "lobelia/bases.h"
 
 namespace lobelia {
 
 class SphericalHarmonics final : public LinearBasis {
   public:
-    explicit SphericalHarmonics(std::size_t degree) : harmonics_(degree) {}
+    explicit SphericalHarmonics(std::size_t degree) : harmonics_(degree), ones_(degree + 1, 1.0f) {}
 
     /// sh1 to sh8. Null if the name is none of these.
     [[nodiscard]] static Result<std::shared_ptr<const Basis>> from_name(std::string_view name);
@@ -20,9 +20,12 @@ class SphericalHarmonics final : public LinearBasis {
     void radiance(std::span<const Rgb> c, DirectionView directions, MutableColourView out) const override {
         harmonics_.sum(c, directions, out);
     }
+    void values_at(Vec3 direction, float* values) const override { harmonics_.values_at(direction, values); }
+    [[nodiscard]] Rgb radiance_at(std::span<const Rgb> c, Vec3 direction) const override {
+        return harmonics_.sum_at(c, ones_, direction);
+    }
     [[nodiscard]] std::string name() const override;
     [[nodiscard]] std::string description() const override;
-    [[nodiscard]] BasisNotes notes() const override;
     [[nodiscard]] Domain domain() const override { return Domain::sphere; }
     [[nodiscard]] bool is_non_negative() const override { return false; }
     [[nodiscard]] Matrix gram() const override;
@@ -45,6 +48,7 @@ class SphericalHarmonics final : public LinearBasis {
 
   private:
     harmonics::Harmonics harmonics_;
+    std::vector<float> ones_;  ///< factors of the bands
 };
 
 }  // namespace lobelia

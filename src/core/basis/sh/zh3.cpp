@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "core/basis/sh/spherical_harmonics.h"
-#include "core/math/zonal_quadratic.h"
 #include "core/math/harmonics_degree_2.h"
+#include "core/math/zonal_quadratic.h"
 
 namespace lobelia {
 namespace {
@@ -175,6 +175,8 @@ class Zh3Convolution final : public Evaluator {
 
 }  // namespace
 
+std::shared_ptr<const FittedBasis> zh3(ZonalAxis axis) { return std::make_shared<Zh3>(axis); }
+
 Result<std::shared_ptr<const Basis>> Zh3::from_name(std::string_view name) {
     for (const Axis axis : {Axis::shared, Axis::per_channel}) {
         auto basis = std::make_shared<Zh3>(axis);
@@ -233,13 +235,6 @@ void Zh3::radiance(std::span<const Rgb> c, DirectionView directions, MutableColo
 std::string Zh3::description() const {
     return axis_ == Axis::shared ? "degree-1 harmonics and zonal degree 2 about the axis of the luminance"
                                  : "degree-1 harmonics and zonal degree 2 about each channel's own axis";
-}
-
-BasisNotes Zh3::notes() const {
-    return {axis_ == Axis::shared ? "ZH3" : "ZH3, an axis for each channel",
-            "L(w) = degree-1 harmonics + z Y_20(axis . w), the axis that of degree 1",
-            "irradiance nearly as good as degree 2 for 15 floats in place of 27",
-            "light from two sides, which has no axis; filtering, where neighbours' axes differ"};
 }
 
 std::shared_ptr<const Evaluator> Zh3::evaluator(std::string_view name) const {

@@ -1,8 +1,8 @@
 // ZH3: degree-1 harmonics and the part of degree 2 that is zonal about the axis of degree 1. Roughton et al. 2024.
 #pragma once
 
+#include "lobelia/bases.h"
 #include "lobelia/basis.h"
-#include "lobelia/result.h"
 
 namespace lobelia {
 
@@ -10,7 +10,7 @@ namespace lobelia {
 /// that of degree 1, of the luminance for all channels (shared), or of each channel alone.
 class Zh3 final : public FittedBasis {
   public:
-    enum class Axis { shared, per_channel };
+    using Axis = ZonalAxis;
     explicit Zh3(Axis axis) : axis_(axis) {}
     /// zh3 and zh3-rgb. Null if the name is neither.
     [[nodiscard]] static Result<std::shared_ptr<const Basis>> from_name(std::string_view name);
@@ -22,7 +22,6 @@ class Zh3 final : public FittedBasis {
     void fit(std::span<const Rgb> accumulated, std::span<Rgb> c) const override;
     [[nodiscard]] std::string name() const override { return axis_ == Axis::shared ? "zh3" : "zh3-rgb"; }
     [[nodiscard]] std::string description() const override;
-    [[nodiscard]] BasisNotes notes() const override;
     [[nodiscard]] Domain domain() const override { return Domain::sphere; }
     /// convolution: negative L and E are read as 0; convolution-signed: as it is.
     [[nodiscard]] std::vector<std::string> evaluator_names() const override {

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <vector>
 
 #include "core/storage/format/bc6h/bc6h.h"
 #include "core/storage/format/floats.h"
@@ -19,12 +18,21 @@ namespace {
 
 using EncodeGroups = void (*)(const float* const* channels, std::size_t count, std::byte* out);
 using DecodeGroups = void (*)(const std::byte* bytes, std::size_t count, float* const* channels);
+using EncodeImage = void (*)(std::size_t width, std::size_t height, ChannelPointers channels, std::byte* out);
+using DecodeImage = void (*)(std::size_t width, std::size_t height, const std::byte* bytes, MutableChannelPointers out);
 
-/// A format with its kernels; formats of blocks have none for texels.
+/// Values are divided by a scale if they exceed the format's limits, or always, so that they fill [0, 1].
+enum class Scaling { if_needed, always };
+
+/// A format with its kernels: of texels, k_lanes at a time, or of whole images where texels come in blocks.
 struct Entry {
+    PixelFormat format;
     FormatInfo info;
     EncodeGroups encode = nullptr;
     DecodeGroups decode = nullptr;
+    EncodeImage encode_image = nullptr;
+    DecodeImage decode_image = nullptr;
+    Scaling scaling = Scaling::if_needed;
 };
 
 template <std::size_t channels, auto kernel>
@@ -36,87 +44,84 @@ void decode_with(const std::byte* bytes, std::size_t count, float* const* out) {
     kernel(channels, bytes, count, out);
 }
 
-using Of = ErrorBound::Of;
 constexpr double k_float_max = std::numeric_limits<float>::max();
 
-/// Half an ulp of 11 bits; half of the least subnormal.
-constexpr ErrorBound k_half_bound{.relative = 0x1p-11, .absolute = 0x1p-25};
-constexpr ErrorBound k_unorm8_bound{.absolute = 0.5 / 255 + 1e-7};
-/// Constant blocks keep 11 bits; others stay within their range, but for the rounding of their ends.
-constexpr ErrorBound k_bc6h_bound{.relative = 0x1p-10, .absolute = 0x1p-22, .spread = 1, .shared = 4};
-
 template <std::size_t channels>
-constexpr Entry floats(std::string_view name, std::uint32_t vk_format) {
-    return {{name, channels, 1, 4 * channels, vk_format, -k_float_max, k_float_max, {}},
+constexpr Entry floats(PixelFormat format, std::string_view name, std::uint32_t vk_format) {
+    return {format,
+            {name, channels, 1, 4 * channels, vk_format, -k_float_max, k_float_max},
             encode_with<channels, texels::encode_floats>,
             decode_with<channels, texels::decode_floats>};
 }
 template <std::size_t channels>
-constexpr Entry halves(std::string_view name, std::uint32_t vk_format) {
-    return {{name, channels, 1, 2 * channels, vk_format, -k_largest_half, k_largest_half, k_half_bound},
+constexpr Entry halves(PixelFormat format, std::string_view name, std::uint32_t vk_format) {
+    return {format,
+            {name, channels, 1, 2 * channels, vk_format, -k_largest_half, k_largest_half},
             encode_with<channels, texels::encode_halves>,
             decode_with<channels, texels::decode_halves>};
 }
 template <std::size_t channels>
-constexpr Entry unorm8(std::string_view name, std::uint32_t vk_format) {
-    return {{name, channels, 1, channels, vk_format, 0, 1, k_unorm8_bound},
+constexpr Entry unorm8(PixelFormat format, std::string_view name, std::uint32_t vk_format) {
+    return {format,
+            {name, channels, 1, channels, vk_format, 0, 1},
             encode_with<channels, texels::encode_unorm8>,
             decode_with<channels, texels::decode_unorm8>};
 }
 
-/// In the order of PixelFormat.
+using F = PixelFormat;
+
+/// THE list, in the order of PixelFormat. The fields of FormatInfo: name, channels, side and bytes of a block,
+/// VkFormat, limits.
 constexpr std::array k_formats = {
-    floats<1>("r32f", 100),
-    floats<2>("rg32f", 103),
-    floats<4>("rgba32f", 109),
-    halves<1>("r16f", 76),
-    halves<2>("rg16f", 83),
-    halves<4>("rgba16f", 97),
-    unorm8<1>("r8", 9),
-    unorm8<2>("rg8", 16),
-    unorm8<4>("rgba8", 37),
-    Entry{{"rgb10a2", 3, 1, 4, 64, 0, 1, {.absolute = 0.5 / 1023 + 1e-7}},
-          texels::encode_unorm10,
-          texels::decode_unorm10},
-    // Nine bits without an implied one: half a step is at most 2^-9 of a largest component just above a power of two.
-    Entry{{"rgb9e5",
-           3,
-           1,
-           4,
-           123,
-           0,
-           texels::k_largest_rgb9e5,
-           {.relative = 0x1p-9, .of = Of::together, .absolute = 0x1p-25}},
-          texels::encode_rgb9e5,
-          texels::decode_rgb9e5},
-    Entry{{"rgbe8",
-           3,
-           1,
-           4,
-           37,
-           0,
-           texels::k_largest_rgbe,
-           {.relative = 0x1p-8, .of = Of::together, .absolute = texels::k_least_rgbe}},
-          texels::encode_rgbe,
-          texels::decode_rgbe},
-    // The factor is at most 1 / 255 above the largest component, which is at least half of what storing_scale() gives.
+    floats<1>(F::r32f, "r32f", 100),
+    floats<2>(F::rg32f, "rg32f", 103),
+    floats<4>(F::rgba32f, "rgba32f", 109),
+    halves<1>(F::r16f, "r16f", 76),
+    halves<2>(F::rg16f, "rg16f", 83),
+    halves<4>(F::rgba16f, "rgba16f", 97),
+    unorm8<1>(F::r8, "r8", 9),
+    unorm8<2>(F::rg8, "rg8", 16),
+    unorm8<4>(F::rgba8, "rgba8", 37),
+    Entry{F::rgb10a2, {"rgb10a2", 3, 1, 4, 64, 0, 1}, texels::encode_unorm10, texels::decode_unorm10},
     Entry{
-        {"rgbm8", 3, 1, 4, 37, 0, 1, {.relative = 0.5 / 255 + 1e-6, .of = Of::together, .of_texture = 2 * 0.5 / 65025}},
-        texels::encode_rgbm,
-        texels::decode_rgbm},
-    // The step of v' is the most of it, and weighs most in blue.
-    Entry{{"logluv32", 3, 1, 4, 37, 0, 0x1p60, {.relative = 0.0213, .of = Of::together, .absolute = 0x1p-59}},
-          texels::encode_logluv,
-          texels::decode_logluv},
-    Entry{{"bc6h_unsigned", 3, 4, bc6h::k_block_bytes, 143, 0, k_largest_half, k_bc6h_bound}},
-    Entry{{"bc6h_signed", 3, 4, bc6h::k_block_bytes, 144, -k_largest_half, k_largest_half, k_bc6h_bound}},
+        F::rgb9e5, {"rgb9e5", 3, 1, 4, 123, 0, texels::k_largest_rgb9e5}, texels::encode_rgb9e5, texels::decode_rgb9e5},
+    Entry{F::rgbe8, {"rgbe8", 3, 1, 4, 37, 0, texels::k_largest_rgbe}, texels::encode_rgbe, texels::decode_rgbe},
+    Entry{F::rgbm8,
+          {"rgbm8", 3, 1, 4, 37, 0, 1},
+          texels::encode_rgbm,
+          texels::decode_rgbm,
+          nullptr,
+          nullptr,
+          Scaling::always},
+    Entry{F::logluv32, {"logluv32", 3, 1, 4, 37, 0, 0x1p60}, texels::encode_logluv, texels::decode_logluv},
+    Entry{F::bc6h_unsigned,
+          {"bc6h_unsigned", 3, 4, bc6h::k_block_bytes, 143, 0, k_largest_half},
+          nullptr,
+          nullptr,
+          bc6h::encode_unsigned,
+          bc6h::decode_unsigned},
+    Entry{F::bc6h_signed,
+          {"bc6h_signed", 3, 4, bc6h::k_block_bytes, 144, -k_largest_half, k_largest_half},
+          nullptr,
+          nullptr,
+          bc6h::encode_signed,
+          bc6h::decode_signed},
 };
 
-const Entry& entry_of(PixelFormat format) { return k_formats[static_cast<std::size_t>(format)]; }
+constexpr auto k_in_order = [] {
+    std::array<PixelFormat, k_formats.size()> formats{};
+    for (std::size_t i = 0; i < formats.size(); ++i) formats[i] = k_formats[i].format;
+    return formats;
+}();
+static_assert(
+    [] {
+        for (std::size_t i = 0; i < k_in_order.size(); ++i)
+            if (static_cast<std::size_t>(k_in_order[i]) != i) return false;
+        return true;
+    }(),
+    "k_formats is in the order of PixelFormat");
 
-bc6h::Signedness sign_of(PixelFormat format) {
-    return format == PixelFormat::bc6h_signed ? bc6h::Signedness::signed_halves : bc6h::Signedness::unsigned_halves;
-}
+const Entry& entry_of(PixelFormat format) { return k_formats[static_cast<std::size_t>(format)]; }
 
 bool is_aligned(const std::byte* bytes) { return reinterpret_cast<std::uintptr_t>(bytes) % 4 == 0; }
 
@@ -151,49 +156,11 @@ void decode_plain(const Entry& entry, std::size_t count, const std::byte* bytes,
     }
 }
 
-/// Four rows from y on, widened to whole blocks by repeating the last column and row.
-void copy_block_row(const float* channel, std::size_t width, std::size_t height, std::size_t y, std::span<float> out) {
-    const std::size_t stride = out.size() / 4;
-    for (std::size_t row = 0; row < 4; ++row) {
-        const float* from = channel + std::min(y + row, height - 1) * width;
-        float* to = out.data() + row * stride;
-        std::copy_n(from, width, to);
-        std::fill_n(to + width, stride - width, from[width - 1]);
-    }
-}
-
-void encode_bc6h(PixelFormat format, std::size_t width, std::size_t height, ChannelPointers channels, std::byte* out) {
-    const std::size_t blocks = (width + 3) / 4;
-    std::vector<float> rows[3];
-    for (auto& r : rows) r.resize(blocks * 16);
-    for (std::size_t y = 0; y < height; y += 4, out += blocks * bc6h::k_block_bytes) {
-        // Whole blocks are read where they lie.
-        const bool whole = width % 4 == 0 && y + 4 <= height;
-        const float* strip[3];
-        for (std::size_t k = 0; k < 3; ++k) {
-            if (!whole) copy_block_row(channels[k], width, height, y, rows[k]);
-            strip[k] = whole ? channels[k] + y * width : rows[k].data();
-        }
-        bc6h::encode_blocks(strip, blocks * 4, blocks, sign_of(format), out);
-    }
-}
-
-void decode_bc6h(PixelFormat format, std::size_t width, std::size_t height, const std::byte* bytes,
-                 MutableChannelPointers channels) {
-    for (std::size_t y = 0; y < height; y += 4)
-        for (std::size_t x = 0; x < width; x += 4, bytes += bc6h::k_block_bytes) {
-            const auto texels = bc6h::decode_block(bytes, sign_of(format));
-            for (std::size_t i = 0; i < bc6h::k_texels; ++i) {
-                const std::size_t column = x + i % 4, row = y + i / 4;
-                if (column >= width || row >= height) continue;
-                for (std::size_t k = 0; k < 3; ++k) channels[k][row * width + column] = float_from_half(texels[i][k]);
-            }
-        }
-}
-
 }  // namespace
 
 const FormatInfo& info(PixelFormat format) { return entry_of(format).info; }
+
+std::span<const PixelFormat> pixel_formats() { return k_in_order; }
 
 std::size_t byte_size(PixelFormat format, std::size_t width, std::size_t height) {
     const FormatInfo& f = info(format);
@@ -207,7 +174,7 @@ void encode_texels(PixelFormat format, std::size_t width, std::size_t height, Ch
     if (entry.encode)
         encode_plain(entry, width * height, channels, out.data());
     else
-        encode_bc6h(format, width, height, channels, out.data());
+        entry.encode_image(width, height, channels, out.data());
 }
 
 void decode_texels(PixelFormat format, std::size_t width, std::size_t height, std::span<const std::byte> bytes,
@@ -217,13 +184,13 @@ void decode_texels(PixelFormat format, std::size_t width, std::size_t height, st
     if (entry.decode)
         decode_plain(entry, width * height, bytes.data(), channels);
     else
-        decode_bc6h(format, width, height, bytes.data(), channels);
+        entry.decode_image(width, height, bytes.data(), channels);
 }
 
 float storing_scale(PixelFormat format, float largest) {
     const double limit = info(format).highest;
-    const bool wants_all = format == PixelFormat::rgbm8;
-    if (!(largest > 0) || (!wants_all && largest <= limit)) return 1;
+    const bool always = entry_of(format).scaling == Scaling::always;
+    if (!(largest > 0) || (!always && largest <= limit)) return 1;
     // The least power of two that brings `largest` to the limit or below.
     int exponent = 0;
     const double share = std::frexp(static_cast<double>(largest) / limit, &exponent);

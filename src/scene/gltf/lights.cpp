@@ -1,0 +1,138 @@
+// Punctual lights (KHR_lights_punctual) and cameras of a glTF file.
+#include <algorithm>
+#include <cmath>
+
+#include "core/math/colour.h"
+#include "scene/gltf/nodes.h"
+
+namespace lobelia::gltf {
+namespace {
+
+/// A transform with its scale removed, right-handed; nothing where its axes are degenerate.
+std::optional<Transform> without_scale(const Transform& t) {
+    const auto column = [&](int k) {
+        const auto part = [&](Vec3 row) { return k == 0 ? row.x : k == 1 ? row.y : row.z; };
+        return Vec3{part(t.rows[0]), part(t.rows[1]), part(t.rows[2])};
+    };
+    Vec3 z = column(2), y = column(1);
+    const auto unit = [](Vec3& v) {
+        // Twice, for a very small or large one.
+        for (int i = 0; i < 2; ++i) {
+            const float largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+            if (!(largest > 0)) return false;
+            v = v * (1 / largest);
+            const float l = length(v);
+            if (!std::isfinite(l) || !(l > 0)) return false;
+            v = v * (1 / l);
+        }
+        return true;
+    };
+    if (!unit(z)) return std::nullopt;
+    Vec3 x = cross(y, z);
+    if (!unit(x)) return std::nullopt;
+    y = cross(z, x);
+    Transform result = t;
+    result.rows = {Vec3{x.x, y.x, z.x}, Vec3{x.y, y.y, z.y}, Vec3{x.z, y.z, z.z}};
+    return result;
+}
+
+/// The half angles of a spot light. Exporters write equal angles for a hard edge (three.js by default), and pi / 2
+/// rounded up to the next float.
+void read_cone(const JsonPlace& source, PunctualLight& light) {
+    constexpr double k_rounding = 1e-6;
+    light.outer_angle = static_cast<float>(0.25 * k_pi);
+    const auto spot = source.find("spot");
+    if (!spot) return;
+    const double inner = number_or(*spot, "innerConeAngle", 0), outer = number_or(*spot, "outerConeAngle", 0.25 * k_pi);
+    if (!(inner >= 0 && outer > 0 && inner <= outer * (1 + k_rounding) && outer <= 0.5 * k_pi * (1 + k_rounding)))
+        spot->refuse("0 <= innerConeAngle <= outerConeAngle <= pi / 2 does not hold");
+    light.outer_angle = static_cast<float>(std::min(outer, 0.5 * k_pi));
+    light.inner_angle = std::min(static_cast<float>(inner), light.outer_angle);
+}
+
+void read_kind(const JsonPlace& source, PunctualLight& light) {
+    const std::string_view type = source.at("type").long_text();
+    if (type == "point") {
+        light.kind = PunctualLight::Kind::point;
+    } else if (type == "spot") {
+        light.kind = PunctualLight::Kind::spot;
+        read_cone(source, light);
+    } else if (type == "directional") {
+        light.kind = PunctualLight::Kind::directional;
+        // glTF has no size for it: our own files carry one in the extras.
+        const auto extras = source.find("extras");
+        const auto radius = extras && extras->is_object() ? extras->find("angular_radius") : std::nullopt;
+        if (radius && !(radius->number() >= 0 && radius->number() < 0.5 * k_pi))
+            radius->refuse(fmt::format("{} is not in [0, pi / 2)", radius->number()));
+        if (radius) light.angular_radius = static_cast<float>(radius->number());
+    } else {
+        source.at("type").refuse("neither point, spot nor directional");
+    }
+}
+
+PunctualLight read_light(const Document& document, std::size_t index) {
+    const JsonPlace& source = document.lights[index];
+    PunctualLight light;
+    light.name = name_of(source);
+    read_kind(source, light);
+    double scale = number_or(source, "intensity", 1);
+    if (document.options.units == GltfReadOptions::Units::photometric) scale /= k_white_efficacy;
+    std::array<double, 3> color{1, 1, 1};
+    if (const auto found = source.find("color")) found->numbers(color);
+    light.intensity = light_amount(source, color, scale, "intensity");
+    const auto range = source.find("range");
+    if (!range || light.kind == PunctualLight::Kind::directional) return light;
+    light.range = range->single();
+    if (light.range < 0) range->refuse("negative");
+    return light;
+}
+
+void add_light(Document& document, const NodeTree& tree, std::size_t node, Scene& scene) {
+    const JsonPlace& source = document.nodes[node];
+    const auto punctual = extension(source, "KHR_lights_punctual");
+    const auto index = punctual ? punctual->find("light") : std::nullopt;
+    if (!index) return;
+    if (!index->is_whole() || index->whole(0, ~std::uint64_t{0}) >= document.lights.size())
+        index->refuse(fmt::format("not an index below {}", document.lights.size()));
+    PunctualLight light = read_light(document, whole(*index));
+    if (const std::string name = name_of(source); !name.empty()) light.name = name;
+    const Transform placed = relative_to(scene.origin, tree.world_from_node[node]);
+    if (light.kind != PunctualLight::Kind::directional) light.position = placed.translation;
+    if (light.kind != PunctualLight::Kind::point) {
+        const auto axes = without_scale(placed);
+        if (!axes) source.refuse("its scale leaves the light no direction");
+        light.direction = Vec3{axes->rows[0].z, axes->rows[1].z, axes->rows[2].z} * -1;
+    }
+    scene.lights.push_back(std::move(light));
+}
+
+void add_camera(Document& document, const NodeTree& tree, std::size_t node, Scene& scene) {
+    const auto index = find_index(document.nodes[node], "camera", document.cameras.size());
+    if (!index) return;
+    const JsonPlace& source = document.cameras[*index];
+    if (source.at("type").long_text() != "perspective") {
+        document.warn(source, "orthographic; left out");
+        return;
+    }
+    Camera camera;
+    camera.name = name_of(document.nodes[node]);
+    if (camera.name.empty()) camera.name = name_of(source);
+    const JsonPlace angle = source.at("perspective").at("yfov");
+    camera.vertical_field_of_view = angle.single();
+    if (!(camera.vertical_field_of_view > 0 && camera.vertical_field_of_view < 3.1415f)) angle.refuse("not in (0, pi)");
+    const auto axes = without_scale(relative_to(scene.origin, tree.world_from_node[node]));
+    if (!axes) document.nodes[node].refuse("its scale leaves the camera no axes");
+    camera.world_from_camera = *axes;
+    scene.cameras.push_back(std::move(camera));
+}
+
+}  // namespace
+
+void read_lights_and_cameras(Document& document, const NodeTree& tree, Scene& scene) {
+    for (const std::size_t node : tree.shown) {
+        add_light(document, tree, node, scene);
+        add_camera(document, tree, node, scene);
+    }
+}
+
+}  // namespace lobelia::gltf

@@ -1,0 +1,36 @@
+// Resources of a glTF file by URI: data URIs, and files in its own folder.
+#pragma once
+
+#include <map>
+
+#include "lobelia/gltf.h"
+
+namespace lobelia::gltf {
+
+/// Files in `folder` and below it; links that lead out of it are refused.
+[[nodiscard]] ResourceReader files_in(const std::filesystem::path& folder);
+
+/// The bytes behind URIs, each file read once. Spans stay valid as long as this lives, also when it is moved.
+class Resources {
+  public:
+    Resources(ResourceReader reader, std::size_t most_bytes) : reader_(std::move(reader)), bytes_left_(most_bytes) {}
+    /// Errors say what is wrong with the URI or its file, not where it stands.
+    [[nodiscard]] Result<std::span<const std::byte>> get(const std::string& uri);
+
+  private:
+    [[nodiscard]] Result<std::span<const std::byte>> keep(const std::string& key, std::vector<std::byte> bytes);
+
+    ResourceReader reader_;
+    std::size_t bytes_left_;
+    std::map<std::string, std::vector<std::byte>> files_;
+    std::vector<std::vector<std::byte>> data_;
+};
+
+/// A relative URI as a path below the folder: percent signs decoded, "." and ".." resolved; an error where it is
+/// absolute, has a scheme, leads out of the folder, or holds characters that no portable file name has.
+[[nodiscard]] Result<std::string> relative_path(std::string_view uri);
+
+/// The bytes of a URI "data:...;base64,...".
+[[nodiscard]] Result<std::vector<std::byte>> decode_data_uri(std::string_view uri);
+
+}  // namespace lobelia::gltf

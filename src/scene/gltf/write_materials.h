@@ -1,0 +1,17 @@
+// Writes materials and textures into a glTF file.
+#pragma once
+
+#include "lobelia/scene.h"
+#include "scene/gltf/glb_builder.h"
+
+namespace lobelia::gltf {
+
+/// Where a mesh's second set of texture coordinates is written: TEXCOORD_1 where it is the lightmap's, else _2.
+struct WriteSets {
+    std::size_t second_uv = 1;
+};
+
+[[nodiscard]] Status write_textures(GlbBuilder& builder, const Scene& scene);
+[[nodiscard]] Status write_materials(GlbBuilder& builder, const Scene& scene, const WriteSets& sets);
+
+}  // namespace lobelia::gltf
