@@ -19,7 +19,9 @@ void for_each_block(const float* directions, std::size_t count, float* out, cons
         for (std::size_t j = 0; j < round_up_to_lanes(size); ++j)
             for (std::size_t k = 0; k < 3; ++k)
                 from[k * k_block_size + j] = j < size ? directions[3 * (begin + j) + k] : 0.0f;
-        evaluate(DirectionView{from.data(), k_block_size, size}, MutableColourView{to.data(), k_block_size, size});
+        float *f = from.data(), *t = to.data();
+        evaluate(DirectionView{{f, f + k_block_size, f + 2 * k_block_size}, size},
+                 MutableColourView{{t, t + k_block_size, t + 2 * k_block_size}, size});
         for (std::size_t j = 0; j < size; ++j)
             for (std::size_t k = 0; k < 3; ++k) out[3 * (begin + j) + k] = to[k * k_block_size + j];
     }

@@ -8,6 +8,7 @@
 #include "bake/write/irradiance_files.h"
 #include "bake/write/manifest.h"
 #include "cli/common.h"
+#include "io/read_image.h"
 
 namespace lobelia::cli {
 

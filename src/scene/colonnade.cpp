@@ -16,70 +16,74 @@ void add_ground(SceneBuilder& builder, const Materials& m) {
     builder.quad({-16, 0, 15}, {32, 0, 0}, {0, 0, -20}, surface(m.gravel, 0.3f));
     // A clipped hedge around it hides the horizon.
     builder.begin_object("hedge");
-    for (const auto& [low, high] :
-         {std::pair{Vec3{-16, 0, 14.2f}, Vec3{16, 2.4f, 15}}, std::pair{Vec3{-16, 0, -5}, Vec3{-15.2f, 2.4f, 14.2f}},
-          std::pair{Vec3{15.2f, 0, -5}, Vec3{16, 2.4f, 14.2f}}})
-        add_solid(builder, low, high, k_face_sides | k_face_top, m.leaves, 0.2f);
+    constexpr float k_front = 14.2f, k_side = 15.2f;
+    const auto hedge = [&](Vec3 low, Vec3 high, unsigned which) {
+        builder.box(low, high, faces(which, m.leaves, 0.2f));
+    };
+    hedge({-16, 0, k_front}, {16, 2.4f, 15}, k_face_left | k_face_right | k_face_front | k_face_top);
+    hedge({-k_side, 0, k_front}, {k_side, 2.4f, 15}, k_face_back);
+    for (const float x : {-16.0f, k_side})
+        hedge({x, 0, -5}, {x + 16 - k_side, 2.4f, k_front}, k_face_left | k_face_right | k_face_back | k_face_top);
     builder.begin_object("steps");
-    constexpr unsigned k_step = k_face_top | k_face_front | k_face_left | k_face_right;
-    add_solid(builder, {-k_end, 0, 0.95f}, {k_end, 0.15f, 1.3f}, k_step, m.stone);
-    add_solid(builder, {-k_end, 0, k_edge}, {k_end, 0.3f, 0.95f}, k_step, m.stone);
-    // The floor is the top of the third; walls stand beside it behind the arcade.
-    builder.box({-k_end, 0, k_half_wall}, {k_end, k_floor, k_edge},
-                faces(k_face_front | k_face_left | k_face_right, m.stone));
-    builder.box({-k_end, 0, k_back}, {k_end, k_floor, k_half_wall},
-                faces(k_face_left | k_face_right, m.stone, k_hidden));
-    builder.box({-k_end, 0, k_back}, {k_end, k_floor, k_edge}, faces(k_face_back | k_face_bottom, m.stone, k_hidden));
+    builder.box({-k_end, 0, 0.95f}, {k_end, 0.15f, 1.3f},
+                faces(k_face_top | k_face_front | k_face_left | k_face_right, m.stone));
+    builder.box({-k_end, 0, k_edge}, {k_end, 0.3f, 0.95f}, faces(k_face_top | k_face_left | k_face_right, m.stone));
+    builder.box({-k_end, 0.15f, k_edge}, {k_end, 0.3f, 0.95f}, faces(k_face_front, m.stone));
+    builder.box({-k_end, 0, k_half_wall}, {k_end, k_floor, k_edge}, faces(k_face_left | k_face_right, m.stone));
+    builder.box({-k_end, 0.3f, k_back}, {k_end, k_floor, k_edge}, faces(k_face_front, m.stone));
     builder.begin_object("floor");
     builder.quad({-k_end, k_floor, k_edge}, {2 * k_end, 0, 0}, {0, 0, k_back - k_edge}, surface(m.tiles));
     // A texture of four tiles over 2 m.
     for (Vec2& uv : builder.scene().meshes.back().uv[0]) uv = uv * 0.5f;
 }
 
-/// Closes the walls, one solid, where they touch ground, steps and roof.
-void close_walls(SceneBuilder& builder, const Materials& m) {
-    constexpr float x = k_end, outer_x = k_end + k_thickness, outer_z = k_back - k_thickness;
-    for (const auto& [low, high] : {std::pair{Vec3{-outer_x, 0, outer_z}, Vec3{outer_x, k_ceiling, k_back}},
-                                    std::pair{Vec3{-outer_x, 0, k_back}, Vec3{-x, k_ceiling, k_half_wall}},
-                                    std::pair{Vec3{x, 0, k_back}, Vec3{outer_x, k_ceiling, k_half_wall}}})
-        builder.box(low, high, faces(k_face_top | k_face_bottom, m.plaster, k_hidden));
-    // Just below the floor, or its edges would have three faces.
-    constexpr float k_low = k_floor - 1e-3f;
-    builder.box({-x, 0, outer_z}, {x, k_low, k_back}, faces(k_face_front, m.plaster, k_hidden));
-    builder.box({-outer_x, 0, k_back}, {-x, k_low, k_half_wall}, faces(k_face_right, m.plaster, k_hidden));
-    builder.box({x, 0, k_back}, {outer_x, k_low, k_half_wall}, faces(k_face_left, m.plaster, k_hidden));
-}
-
 /// Back and end walls: plaster above a painted dado within, plain and coarse without.
 void add_walls(SceneBuilder& builder, const Materials& m) {
     constexpr float k_dado = k_floor + 1.1f, k_outside = 0.3f;
     constexpr float x = k_end, outer_x = k_end + k_thickness, outer_z = k_back - k_thickness;
-    const auto inner_face = [&](Vec3 corner, Vec3 right) {
-        builder.quad(corner, right, {0, k_dado - k_floor, 0}, surface(m.dado));
-        builder.quad(corner + Vec3{0, k_dado - k_floor, 0}, right, {0, k_ceiling - k_dado, 0}, surface(m.plaster));
+    const auto inner_face = [&](Vec3 corner, Vec3 right, float top) {
+        builder.quad(corner, right, {0, k_dado - corner.y, 0}, surface(m.dado));
+        builder.quad({corner.x, k_dado, corner.z}, right, {0, top - k_dado, 0}, surface(m.plaster));
+    };
+    // End walls: behind the columns, beside one between its slabs, and above that behind the arcade.
+    const auto end_wall = [&](float at, float side) {
+        const auto part = [&](float low, float high, auto&& add) {
+            // From the left as seen from inside.
+            const float begin = side < 0 ? high : low;
+            add(Vec3{at, 0, begin}, Vec3{0, 0, side < 0 ? low - high : high - low});
+        };
+        part(k_back, -k_slab, [&](Vec3 corner, Vec3 right) {
+            inner_face(corner + Vec3{0, k_floor, 0}, right, k_ceiling);
+        });
+        part(-k_slab, k_half_wall, [&](Vec3 corner, Vec3 right) {
+            inner_face(corner + Vec3{0, k_floor + k_plinth_top, 0}, right, k_floor + k_abacus);
+        });
+        part(-k_slab, -k_half_wall, [&](Vec3 corner, Vec3 right) {
+            constexpr float k_low = k_floor + k_abacus_top;
+            builder.quad(corner + Vec3{0, k_low, 0}, right, {0, k_ceiling - k_low, 0}, surface(m.plaster));
+        });
     };
     builder.begin_object("back wall");
-    inner_face({-x, k_floor, k_back}, {2 * x, 0, 0});
+    inner_face({-x, k_floor, k_back}, {2 * x, 0, 0}, k_ceiling);
     builder.box({-outer_x, 0, outer_z}, {outer_x, k_ceiling, k_back},
                 faces(k_face_back | k_face_left | k_face_right, m.plaster, k_outside));
     // A ledge over the dado's edge, and a bench before it.
-    add_solid(builder, {-x, k_dado - 0.02f, k_back}, {x, k_dado + 0.1f, k_back + 0.06f},
-              k_face_top | k_face_bottom | k_face_front, m.stone);
+    builder.box({-x, k_dado - 0.02f, k_back}, {x, k_dado + 0.1f, k_back + 0.06f},
+                faces(k_face_top | k_face_bottom | k_face_front, m.stone));
     builder.begin_object("bench");
-    add_solid(builder, {-3, k_floor + 0.38f, k_back}, {3, k_floor + 0.46f, k_back + 0.5f},
-              k_face_all & ~unsigned{k_face_back}, m.stone);
+    builder.box({-3, k_floor + 0.38f, k_back}, {3, k_floor + 0.46f, k_back + 0.5f},
+                faces(k_face_all & ~unsigned{k_face_back}, m.stone));
     for (const float foot : {-2.6f, 0.0f, 2.6f})
-        add_solid(builder, {foot - 0.12f, k_floor, k_back}, {foot + 0.12f, k_floor + 0.38f, k_back + 0.42f},
-                  k_face_left | k_face_right | k_face_front, m.stone);
+        builder.box({foot - 0.12f, k_floor, k_back}, {foot + 0.12f, k_floor + 0.38f, k_back + 0.42f},
+                    faces(k_face_left | k_face_right | k_face_front, m.stone));
     builder.begin_object("left wall");
-    inner_face({-x, k_floor, k_half_wall}, {0, 0, k_back - k_half_wall});
+    end_wall(-x, -1);
     builder.box({-outer_x, 0, k_back}, {-x, k_ceiling, k_half_wall},
                 faces(k_face_left | k_face_front, m.plaster, k_outside));
     builder.begin_object("right wall");
-    inner_face({x, k_floor, k_back}, {0, 0, k_half_wall - k_back});
+    end_wall(x, 1);
     builder.box({x, 0, k_back}, {outer_x, k_ceiling, k_half_wall},
                 faces(k_face_right | k_face_front, m.plaster, k_outside));
-    close_walls(builder, m);
 }
 
 /// The wall above the columns: stops along x with the height of its lower edge, from left to right.
@@ -126,15 +130,6 @@ void add_arcade(SceneBuilder& builder, const Materials& m) {
         });
     }
 
-    // Close it at its ends, under the roof, and over the columns.
-    builder.box({-k_end, k_spring, -k_half_wall}, {k_end, k_ceiling, k_half_wall},
-                faces(k_face_left | k_face_right | k_face_top, m.plaster, k_hidden));
-    for (int column = 0; column <= k_bays; ++column) {
-        const float centre = -k_half_length + k_bay * static_cast<float>(column), half = 0.5f * k_bay - k_arch_radius;
-        builder.box({centre - half, k_spring, -k_half_wall}, {centre + half, k_ceiling, k_half_wall},
-                    faces(k_face_bottom, m.plaster, k_hidden));
-    }
-
     // The arches from below.
     PatchOptions soffit = surface(m.stone);
     soffit.columns = k_arch_segments;
@@ -154,14 +149,22 @@ void add_arcade(SceneBuilder& builder, const Materials& m) {
 void add_roof(SceneBuilder& builder, const Materials& m) {
     constexpr float x = k_end + k_thickness + 0.15f, front = k_half_wall + 0.2f, back = k_back - k_thickness - 0.15f;
     builder.begin_object("roof");
-    builder.quad({-x, k_ceiling, back}, {2 * x, 0, 0}, {0, 0, front - back}, surface(m.ceiling, 0.8f));
+    // The ceiling within, and the eaves around the walls.
+    constexpr float wall_x = k_end + k_thickness, wall_back = k_back - k_thickness;
+    for (const auto& [low, high] :
+         {std::pair{Vec3{-k_end, 0, k_back}, Vec3{k_end, 0, -k_half_wall}},
+          std::pair{Vec3{-x, 0, k_half_wall}, Vec3{x, 0, front}}, std::pair{Vec3{-x, 0, back}, Vec3{x, 0, wall_back}},
+          std::pair{Vec3{-x, 0, wall_back}, Vec3{-wall_x, 0, k_half_wall}},
+          std::pair{Vec3{wall_x, 0, wall_back}, Vec3{x, 0, k_half_wall}}})
+        builder.quad({low.x, k_ceiling, low.z}, {high.x - low.x, 0, 0}, {0, 0, high.z - low.z},
+                     surface(m.ceiling, 0.8f));
     builder.box({-x, k_ceiling, back}, {x, k_roof, front}, faces(k_face_top, m.roof, 0.2f));
     builder.box({-x, k_ceiling, back}, {x, k_roof, front}, faces(k_face_sides, m.stone, 0.6f));
     builder.begin_object("beams");
     for (int i = 0; i <= 2 * k_bays; ++i) {
         const float centre = -k_half_length + 0.5f * k_bay * static_cast<float>(i);
-        add_solid(builder, {centre - 0.1f, k_ceiling - 0.24f, k_back}, {centre + 0.1f, k_ceiling, -k_half_wall},
-                  k_face_left | k_face_right | k_face_bottom, m.timber, 0.8f);
+        builder.box({centre - 0.1f, k_ceiling - 0.24f, k_back}, {centre + 0.1f, k_ceiling, -k_half_wall},
+                    faces(k_face_left | k_face_right | k_face_bottom, m.timber, 0.8f));
     }
 }
 

@@ -20,6 +20,21 @@ void add_bulge(std::vector<ProfilePoint>& profile, float radius, float bulge, fl
     }
 }
 
+/// The horizontal face of a slab around a column: between the slab's edge and a circle.
+void add_ring(SceneBuilder& builder, Vec3 centre, float radius, Vec3 normal, std::uint32_t material) {
+    PatchOptions options = surface(material);
+    options.columns = k_column_segments;
+    options.size = {static_cast<float>(k_pi) * (radius + k_slab), k_slab - radius};
+    builder.patch(options, [&](float u, float v) {
+        // Around as a lathe turns, inwards on an upper face and outwards on a lower one.
+        const double angle = u == 1 ? 0 : 2 * k_pi * static_cast<double>(u);
+        const auto s = static_cast<float>(std::sin(angle)), c = static_cast<float>(std::cos(angle));
+        const bool on_circle = (v == 1) == (normal.y > 0);
+        const float reach = on_circle ? radius : k_slab / std::max(std::abs(s), std::abs(c));
+        return PatchPoint{centre + Vec3{reach * s, 0, reach * c}, normal, {u * options.size.x, v * options.size.y}};
+    });
+}
+
 }  // namespace
 
 BoxOptions faces(unsigned which, std::uint32_t material, float density) {
@@ -37,34 +52,30 @@ PatchOptions surface(std::uint32_t material, float density) {
     return options;
 }
 
-void add_solid(SceneBuilder& builder, Vec3 lowest, Vec3 highest, unsigned visible, std::uint32_t material,
-               float density) {
-    builder.box(lowest, highest, faces(visible, material, density));
-    builder.box(lowest, highest, faces(k_face_all & ~visible, material, k_hidden));
-}
-
 /// A column with a square plinth, a round base, a shaft that swells a little, and a capital.
 void add_column(SceneBuilder& builder, const Materials& m, float x, int number) {
-    constexpr float k_base = 0.14f, k_shaft = 0.36f, k_neck = 2.42f, k_abacus = 2.68f, k_top_of = 2.8f, k_half = 0.35f;
+    constexpr float k_shaft = 0.36f, k_neck = 2.42f, k_base_radius = 0.27f, k_capital_radius = 0.335f;
     builder.begin_object("column " + std::to_string(number));
-    const auto slab = [&](float low, float high, unsigned visible) {
-        add_solid(builder, {x - k_half, k_floor + low, -k_half}, {x + k_half, k_floor + high, k_half}, visible,
-                  m.stone);
-    };
-    slab(0, k_base, k_face_sides | k_face_top);
-    slab(k_abacus, k_top_of, k_face_all);
-
     const Vec3 foot{x, k_floor, 0};
-    // Discs that touch the slabs close the column; a radius of 0 would make triangles without area.
-    constexpr float k_pin = 0.001f, k_base_radius = 0.27f, k_shaft_radius = 0.26f, k_capital_radius = 0.335f;
-    const auto lid = [&](ProfilePoint from, ProfilePoint to) {
-        builder.lathe(foot, std::array{from, to}, k_column_segments, surface(m.stone, k_hidden));
+    // The outer columns stand against the end walls, which end before the slabs do.
+    const unsigned at_wall = number == 1 ? +k_face_left : number == k_bays + 1 ? +k_face_right : 0u;
+    const auto slab = [&](float low, float high) {
+        const Vec3 lowest = foot + Vec3{-k_slab, low, -k_slab}, highest = foot + Vec3{k_slab, high, k_slab};
+        builder.box(lowest, highest, faces(k_face_sides & ~at_wall, m.stone));
+        builder.box({lowest.x, lowest.y, k_half_wall}, highest, faces(at_wall, m.stone));
     };
-    lid({k_pin, k_base, {0, -1}}, {k_base_radius, k_base, {0, -1}});
-    lid({k_capital_radius, k_abacus, {0, 1}}, {k_pin, k_abacus, {0, 1}});
-    lid({k_base_radius, k_shaft, {0, 1}}, {k_shaft_radius, k_shaft, {0, 1}});
+    slab(0, k_plinth_top);
+    add_ring(builder, foot + Vec3{0, k_plinth_top, 0}, k_base_radius, {0, 1, 0}, m.stone);
+    slab(k_abacus, k_abacus_top);
+    add_ring(builder, foot + Vec3{0, k_abacus, 0}, k_capital_radius, {0, -1, 0}, m.stone);
+    // Its top before and behind the arcade's wall.
+    for (const auto& [near, far] : {std::pair{-k_slab, -k_half_wall}, std::pair{k_half_wall, k_slab}})
+        builder.box({x - k_slab, k_floor + k_abacus, near}, {x + k_slab, k_floor + k_abacus_top, far},
+                    faces(k_face_top, m.stone));
+
     std::vector<ProfilePoint> profile;
-    add_bulge(profile, k_base_radius, 0.06f, k_base, k_shaft);
+    add_bulge(profile, k_base_radius, 0.06f, k_plinth_top, k_shaft);
+    profile.push_back({0.26f, k_shaft, {0, 1}});
     builder.lathe(foot, profile, k_column_segments, surface(m.stone));
     profile.clear();
     for (int i = 0; i <= 4; ++i) {
@@ -76,7 +87,9 @@ void add_column(SceneBuilder& builder, const Materials& m, float x, int number) 
     for (int i = 0; i <= 5; ++i) {
         const double angle = 0.5 * k_pi * i / 5;
         const auto c = static_cast<float>(std::cos(angle)), s = static_cast<float>(std::sin(angle));
-        profile.push_back({0.215f + 0.12f * (1 - c), k_neck + (k_abacus - k_neck) * s, {s + 0.35f * c, -s - 0.1f}});
+        profile.push_back({0.215f + (k_capital_radius - 0.215f) * (1 - c),
+                           k_neck + (k_abacus - k_neck) * s,
+                           {s + 0.35f * c, -s - 0.1f}});
         profile.back().normal =
             profile.back().normal * (1 / std::hypot(profile.back().normal.x, profile.back().normal.y));
     }
@@ -138,7 +151,7 @@ void add_pot(SceneBuilder& builder, const Materials& m, Vec3 foot, int number) {
     for (int i = 0; i <= 7; ++i) {
         const double angle = k_pi * (static_cast<double>(i) / 7 - 0.5) * 0.97;
         const auto c = static_cast<float>(std::cos(angle)), s = static_cast<float>(std::sin(angle));
-        bush.push_back({0.36f * c, 0.78f + 0.36f * s, {c, s}});
+        bush.push_back({0.36f * c, 0.81f + 0.36f * s, {c, s}});
     }
     builder.lathe(foot, bush, 14, surface(m.leaves, 0.6f));
 }

@@ -1,7 +1,7 @@
 // The parts of the colonnade: its measures, its materials, and the things that stand in it.
 //
-// Everything is closed, and nothing reaches into anything else: a point under another part sees only backs, so that the
-// baker knows it to be hidden.
+// Surfaces end where others stand on them: whatever lies inside of the building or a column sees only backs, so that
+// the baker knows it to be hidden.
 #pragma once
 
 #include "scene/scene_builder.h"
@@ -20,6 +20,9 @@ inline constexpr float k_back = -3.6f;                 // inner face of the back
 inline constexpr float k_thickness = 0.3f;             // of back and end walls
 inline constexpr float k_edge = 0.6f;                  // where the floor ends and the steps begin
 inline constexpr std::size_t k_arch_segments = 16;
+// Square slabs under and over each column, above the floor.
+inline constexpr float k_slab = 0.35f;  // half of a side
+inline constexpr float k_plinth_top = 0.14f, k_abacus = 2.68f, k_abacus_top = 2.8f;
 
 struct Materials {
     std::uint32_t stone, plaster, dado, ceiling, timber, tiles, gravel, roof, red, blue, ochre, bronze, terracotta,
@@ -31,12 +34,6 @@ struct Materials {
 /// Options of a box and of a patch; density is that of the lightmap, relative to others.
 [[nodiscard]] BoxOptions faces(unsigned which, std::uint32_t material, float density = 1);
 [[nodiscard]] PatchOptions surface(std::uint32_t material, float density = 1);
-
-/// A box whose `visible` faces have this density; the others, which touch something, only close it.
-void add_solid(SceneBuilder& builder, Vec3 lowest, Vec3 highest, unsigned visible, std::uint32_t material,
-               float density = 1);
-/// The density of faces that nobody sees.
-inline constexpr float k_hidden = 0.02f;
 
 /// Cloth that hangs from a rod between two columns, gathered at the top.
 struct Curtain {

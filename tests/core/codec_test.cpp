@@ -10,6 +10,7 @@
 
 #include "core/basis/sg/sg_irradiance.h"
 #include "core/basis/sg/spherical_gaussians.h"
+#include "core/math/least_squares.h"
 #include "lobelia/encoders.h"
 #include "support.h"
 

@@ -4,6 +4,7 @@
 
 #include <map>
 
+#include "core/math/least_squares.h"
 #include "ennis.h"
 #include "lobelia/codec.h"
 #include "lobelia/encoders.h"

@@ -2,7 +2,7 @@
 // basis.
 #include "core/math/ggx.h"
 
-#include "core/math/ggx_fast.h"
+#include "core/sample/ggx_fast.h"
 #include "lobelia/codec.h"
 #include "lobelia/specular.h"
 #include "support.h"

@@ -67,7 +67,7 @@ TEST(OneDirection, ValuesEqualTheRows) {
         std::vector<float> rows(functions.size() * k_block_size), values(round_up_to_lanes(functions.size()));
         functions.values(directions, rows.data());
         for (std::size_t j = 0; j < directions.size(); ++j) {
-            functions.values_at(direction_at(directions, j), values);
+            functions.values_at(direction_at(directions, j), values.data());
             for (std::size_t i = 0; i < functions.size(); ++i)
                 EXPECT_NEAR(values[i], rows[i * k_block_size + j], 2e-6f * (1 + std::abs(values[i]))) << what;
         }
