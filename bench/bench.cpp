@@ -1,5 +1,5 @@
-// lobelia_bench: stage.codec.size, medians of several runs. "per_item" is the time of one sample, normal or texel.
-// Every basis, encoder and evaluator of the lists is measured; a new one appears here by itself.
+// lobelia_bench: rows named stage.codec.size, medians of several runs. "per_item" is the time of one sample, normal or
+// texel. All bases, encoders and evaluators of the lists are measured; new ones are included without further code.
 #include <benchmark/benchmark.h>
 
 #include "bench/machine.h"
@@ -49,7 +49,7 @@ void machine_fma(benchmark::State& state) {
     count_items(state, count);
 }
 
-/// Function values of a basis or an evaluator's weights; an item is one value of one function.
+/// Measures function values of a basis or the weights of an evaluator; an item is one value of one function.
 void values(benchmark::State& state, const FunctionSet& functions, Domain domain) {
     const Directions directions = uniform_directions(domain, Sequence::sobol, k_normals, 1);
     std::vector<float> rows(functions.size() * k_block_size);
@@ -158,7 +158,8 @@ void reduce(benchmark::State& state) {
     count_items(state, large.pixels.size());
 }
 
-/// Coefficients of a page of texels that suit every storage: smooth over the page, all within what the first allows.
+/// Coefficients of a page of texels that every storage supports: smooth over the page, all within the bound of the
+/// first coefficient.
 class PackedPage {
   public:
     static constexpr std::size_t width = 512, height = 256, coefficients = 4;
@@ -185,7 +186,7 @@ class PackedPage {
 
 void count_page(benchmark::State& state) {
     count_items(state, PackedPage::width * PackedPage::height);
-    // Of the floats that go in or come out.
+    // Bytes of the floats that go in or come out.
     state.SetBytesProcessed(state.iterations() * static_cast<std::int64_t>(PackedPage::width * PackedPage::height * 12 *
                                                                            PackedPage::coefficients));
 }
@@ -248,7 +249,8 @@ void register_basis(const std::shared_ptr<const Basis>& basis) {
                                      });
 }
 
-/// Cost against the number of samples, of the first listed basis; that against coefficients is in register_basis().
+/// Measures cost against the number of samples, for the first listed basis; register_basis() measures it against
+/// coefficients.
 void register_scaling() {
     const auto basis = make_basis(basis_names().front()).value();
     for (const auto& name : encoder_names(*basis))
@@ -288,7 +290,7 @@ void register_all() {
 }  // namespace lobelia::bench
 
 int main(int argc, char** argv) {
-    // Medians of five, unless the command line says otherwise.
+    // Report medians of five runs, unless the command line sets another number.
     std::vector<char*> arguments(argv, argv + argc);
     std::array<std::string, 3> defaults = {"--benchmark_repetitions=5", "--benchmark_report_aggregates_only=true",
                                            "--benchmark_min_time=0.05"};

@@ -18,14 +18,14 @@
 namespace lobelia::bench {
 namespace {
 
-/// Seconds that this thread has computed: whoever shares the processor does not count.
+/// CPU time of this thread [s], so that other programs on the machine do not count.
 double thread_seconds() {
     timespec now{};
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
     return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-/// A ball of 2 steps^2 triangles, so wrinkled that rays from it are as incoherent as can be.
+/// A sphere of 2 steps^2 triangles, wrinkled so that rays from it are as incoherent as possible.
 Mesh wrinkled_ball(std::uint32_t steps) {
     Mesh mesh;
     for (std::uint32_t j = 0; j <= steps; ++j)
@@ -46,7 +46,7 @@ Mesh wrinkled_ball(std::uint32_t steps) {
     return mesh;
 }
 
-/// A scene with receivers spread evenly over its surfaces, and rays as paths in it have them.
+/// A scene with receivers spread evenly over its surfaces, and rays like those of paths in it.
 struct Workplace {
     Scene scene;
     World world;
@@ -87,7 +87,7 @@ struct Workplace {
         }
     }
 
-    /// Closest hits a second, without anything else.
+    /// Measures closest hits per second, without shading.
     [[nodiscard]] double embree_rate() const {
         const double start = thread_seconds();
         for (const auto& ray : incoherent)
@@ -125,14 +125,15 @@ void closest(benchmark::State& state, const Workplace& place) {
                            benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
-/// As a bake does: a block of receivers, 64 samples of each in passes of 16.
+/// Gathers as a bake does: a block of receivers, 64 samples each in passes of 16.
 constexpr std::size_t k_block = 64;
 void gather_block(const Workplace& place, std::size_t first, GatherBuffer& buffer, PathTracer::Scratch& scratch) {
     for (std::uint32_t pass = 0; pass < 4; ++pass)
         gather(place.tracer, std::span(place.receivers).subspan(first, k_block), {16 * pass, 16}, {}, buffer, scratch);
 }
 
-/// One thread; an item is a ray, of either kind. `of_embree`: rays a second over Embree's own, the two taken in turns.
+/// Measures one thread; an item is a ray of either kind. `of_embree`: rays per second over Embree's own rate, measured
+/// in alternation.
 void paths(benchmark::State& state, const Workplace& place) {
     const auto scratch = place.tracer.make_scratch();
     GatherBuffer buffer;
@@ -153,7 +154,7 @@ void paths(benchmark::State& state, const Workplace& place) {
     state.counters["of_embree"] = rays / seconds / (embree / turns);
 }
 
-/// The whole of it, all threads: 48,000 receivers, 64 samples, 8 bounces, in passes of 16.
+/// Measures all threads: 48,000 receivers, 64 samples, 8 bounces, in passes of 16.
 void whole(benchmark::State& state, const Workplace& place) {
     std::atomic<std::uint64_t> rays{0};
     for (auto _ : state)

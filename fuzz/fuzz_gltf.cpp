@@ -1,4 +1,5 @@
-// Any bytes as a glTF file: an error with a message, or a scene that holds what scene.h promises and can be written.
+// Feeds any bytes to the glTF reader. The result is an error with a message, or a scene that satisfies the contract of
+// scene.h and can be written.
 #include <cstdint>
 
 #include "check_loaded.h"
@@ -14,7 +15,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     options.most_triangles = 1 << 12;
     options.most_objects = 1 << 8;
     options.most_texels = 1 << 14;
-    // Every other file that it names holds the same bytes.
+    // Every other file that the scene names holds the same bytes.
     const std::span bytes(reinterpret_cast<const std::byte*>(data), size);
     const ResourceReader resources = [&](const std::string& path, std::size_t most) -> Result<std::vector<std::byte>> {
         require(!path.empty() && path.front() != '/' && path.find("..") == std::string::npos);

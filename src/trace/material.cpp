@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "core/math/ggx_fast.h"
+#include "core/sample/ggx_fast.h"
 #include "lobelia/planes.h"
 
 namespace lobelia {

@@ -1,4 +1,5 @@
-// A bake's irradiance is what its codec reads at each texel's normal; its textures hold what its pages do.
+// Tests that a bake's irradiance equals the codec's at each texel's normal, and that its textures hold the values of
+// its pages.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -103,8 +104,8 @@ std::uint64_t number_at(const std::string& bytes, std::size_t place, std::size_t
     return value;
 }
 
-/// What a KTX 2.0 file holds. Khronos 2021, section 3: identifier, format, size of type, width, height, depth, layers,
-/// faces, levels, scheme; the level's place and its length at 80.
+/// Parses a KTX 2.0 file. Khronos 2021, section 3: identifier, format, size of type, width, height, depth, layers,
+/// faces, levels, scheme; the level's offset and its length at byte 80.
 PackedTexture texture_in(const fs::path& file, PixelFormat format) {
     const std::string bytes = test::contents(file);
     EXPECT_EQ(bytes.substr(0, 12), std::string("\xabKTX 20\xbb\r\n\x1a\n"));
@@ -121,7 +122,7 @@ PackedTexture texture_in(const fs::path& file, PixelFormat format) {
 
 CoefficientTraits traits_of(const std::string& codec) { return coefficient_traits(*make_codec(codec)->encoder()); }
 
-/// A bake whose coefficients are such as the codec's are.
+/// A bake whose coefficients have the traits of the codec's.
 Bake some_bake_within(const std::string& codec) {
     Bake bake = some_bake(codec);
     const CoefficientTraits traits = traits_of(codec);
@@ -159,7 +160,7 @@ TEST(BakeTextures, FilesHoldThePageWithinEachStoragesBound) {
         Bake bake = some_bake_within(codec);
         bake.pages.pop_back();
         bake.normals.pop_back();
-        bake.manifest.objects.pop_back();  // it lies there
+        bake.manifest.objects.pop_back();  // its texels are on that page
         const CoefficientTraits traits = traits_of(codec);
         WriteBakeOptions options;
         options.storages.emplace();
@@ -260,7 +261,7 @@ TEST(BakeFolder, MorePagesThanFilesMayBeOpen) {
     ASSERT_TRUE(status) << status.error().message;
     EXPECT_EQ(folder.entries(), (1u + 4 + 1) * 22 + 3);  // more than may be open
     EXPECT_TRUE(read_bake(folder.path()));
-    // And where the last one does not fit, nothing is left, temporary names included.
+    // If the last file does not fit, nothing is left behind, including temporary files.
     bake.pages.back().chart[0] = (1u << 24) + 1;
     EXPECT_FALSE(write_bake(folder.path() / "again", bake, {.storages = std::vector<std::string>{}}));
     EXPECT_FALSE(fs::exists(folder.path() / "again"));

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "data.h"
 #include "folders.h"
 #include "lobelia/bake.h"
 
@@ -24,7 +25,7 @@ BakeJob plain_job() {
 
 /// Bakes a file of the cases; nothing where they are not present.
 std::optional<Bake> baked_case(const char* file, const BakeJob& job = plain_job()) {
-    const fs::path path = fs::path(LOBELIA_SHARED_DIR) / "cases" / file;
+    const fs::path path = test::cases_folder() / file;
     if (!fs::exists(path)) return std::nullopt;
     const auto loaded = load_scene({.path = path.string()});
     EXPECT_TRUE(loaded) << loaded.error().message;
@@ -86,7 +87,7 @@ TEST(Cases, PlainIrradianceIsNeverNegative) {
 
 TEST(Cases, PagesHoldWhatHalfFloatsCannot) {
     const test::TestFolder folder("cases-sun");
-    const fs::path path = fs::path(LOBELIA_SHARED_DIR) / "cases" / "d04-sun-100000.glb";
+    const fs::path path = test::cases_folder() / "d04-sun-100000.glb";
     if (!fs::exists(path)) GTEST_SKIP();
     const auto loaded = load_scene({.path = path.string()});
     ASSERT_TRUE(loaded) << loaded.error().message;

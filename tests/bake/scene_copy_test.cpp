@@ -1,4 +1,4 @@
-// The copy of the scene that goes with a bake: its lightmap UVs are the pages', and nothing else has changed.
+// Tests the copy of the scene in a bake: its lightmap UVs are those of the pages, and nothing else differs.
 #include <gtest/gtest.h>
 
 #include "bake/write/manifest.h"

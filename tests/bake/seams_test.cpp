@@ -1,4 +1,4 @@
-// Edges that lie at the same place, and seams closed along them, against searches of all pairs.
+// Tests the matching of edges and the closing of seams against searches over all pairs.
 #include "bake/finish/finish.h"
 
 #include <map>
@@ -36,7 +36,7 @@ std::vector<LightmapPage> pages_with(const Atlas& atlas, const TexelMap& map, co
     return pages;
 }
 
-/// As a renderer reads it.
+/// Filters bilinearly, as a renderer does.
 float bilinear(const LightmapPage& page, std::size_t channel, Vec2 p) {
     float sum = 0;
     const float x = p.x - 0.5f, y = p.y - 0.5f;
@@ -60,7 +60,7 @@ struct TwoSquares {
     static World make(Where where) {
         Mesh left = parallelogram({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.05f, 0.05f}, {0.45f, 0.45f});
         Mesh right = parallelogram({1, 0, 0}, {1, 0, 0}, {0, 1, 0});
-        // A quarter turn: its left side lies at the top of its chart.
+        // Rotated by a quarter turn: its left side is at the top of its chart.
         right.lightmap_uv = {{0.55f, 0.5f}, {0.55f, 0.93f}, {0.88f, 0.93f}, {0.88f, 0.5f}};
         if (where != Where::one_object) return make_world(scene_of({left, right}));
         for (std::size_t v = 0; v < 4; ++v) {
@@ -93,7 +93,7 @@ struct TwoSquares {
 constexpr std::array k_two_squares = {TwoSquares::Where::one_object, TwoSquares::Where::two_objects,
                                       TwoSquares::Where::two_pages};
 
-/// A smooth light, and a tenth more on one side.
+/// Smooth light, with a tenth more on one side.
 float uneven_light(Vec3 p, std::uint32_t chart) { return (1 + p.y * p.y) * (chart == 1 ? 1.0f : 1.1f); }
 
 TEST(Seams, Close) {
@@ -110,7 +110,7 @@ TEST(Seams, Close) {
         for (std::size_t p = 0; p < after.size(); ++p)
             EXPECT_EQ(after[p].planes[layout.error()], before[p].planes[layout.error()]);
 
-        // As renderers read it, with the gutter filled.
+        // Compare as a renderer filters, with the gutter filled.
         auto dilated_before = before, dilated_after = after;
         dilate(dilated_before);
         dilate(dilated_after);
@@ -135,7 +135,7 @@ TEST(Seams, LeaveFarTexelsAlone) {
         if (!near) {
             EXPECT_EQ(after[0].planes[0][i], before[0].planes[0][i]);
         }
-        // And nothing leaves the range of what was there.
+        // Check that no value leaves the previous range.
         EXPECT_LE(after[0].planes[0][i], 2.3f);
         EXPECT_GE(after[0].planes[0][i], 0.0f);
     }
@@ -251,7 +251,7 @@ TEST(Seams, WithinOneChartCloseToo) {
     const TexelMap map = map_texels(atlas);
     EXPECT_EQ(*std::max_element(atlas.chart_of_triangle().begin(), atlas.chart_of_triangle().end()), 0u);
     const PageChannels layout{1};
-    // Brightness grows along the way around; in the end it is half as much again.
+    // Brightness grows around the tube, to half as much again at the end.
     auto pages = pages_with(atlas, map, layout, [](Vec3 p, std::uint32_t) {
         const float a = std::atan2(p.y, p.x);
         return 1 + (a < 0 ? a + static_cast<float>(2 * k_pi) : a) / 12;
@@ -261,7 +261,7 @@ TEST(Seams, WithinOneChartCloseToo) {
     EXPECT_LT(report.after, 0.1 * report.before);
 }
 
-/// A square beside two halves of one: no edge of the left matches one of the right from end to end.
+/// A square beside two half squares: no edge on the left matches one on the right from end to end.
 TEST(Seams, CloseAtTJunctions) {
     const Mesh left = parallelogram({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.05f, 0.05f}, {0.45f, 0.45f});
     const Mesh lower = parallelogram({1, 0, 0}, {1, 0, 0}, {0, 0.5f, 0}, {0.55f, 0.05f}, {0.95f, 0.25f});

@@ -36,8 +36,8 @@ function half(bits) {
   return sign * (exponent ? (1 + fraction / 1024) * 2 ** (exponent - 15) : fraction * 2 ** -24);
 }
 
-// What the Khronos Data Format Specification 1.3 has for each format, written down once more. Samples are [bit, bits,
-// channel with qualifiers, lower, upper]; decode reads a texel, allowed is its error.
+// Data format descriptors of each format after the Khronos Data Format Specification 1.3, written here independently.
+// Samples are [bit, bits, channel with qualifiers, lower, upper]; decode decodes a texel, allowed is its error.
 const minusOne = 0xbf800000, one = 0x3f800000, channels = [0, 1, 2, 15];
 const cut = (low, high, v) => Math.max(low, Math.min(high, v));
 const unorm8 = (count) => ({
@@ -135,7 +135,7 @@ function checkFormat(folder, name) {
   if (formats[name][1].decode) checkNumbers(name, formats[name][1], data, expected);
 }
 
-// A bake's textures are what its manifest says of them.
+// Check that a bake's textures match its manifest.
 function checkBake(folder) {
   const { layout } = JSON.parse(readFileSync(join(folder, 'bake.json')));
   let files = 0;

@@ -1,4 +1,4 @@
-// Names of codecs and of their parts: every listed one is made, others give the nearest.
+// Tests names of codecs and of their parts: every listed name is made; the error of an unknown one lists the nearest.
 #include <gtest/gtest.h>
 
 #include <set>
@@ -16,7 +16,7 @@ TEST(CodecNames, EveryListedCodecIsMadeFromItsName) {
         const auto parsed = parse_codec_name(name.str());
         ASSERT_TRUE(parsed);
         EXPECT_EQ(*parsed, name);
-        // A whole codec for each basis and encoder: setting up some takes quadratures.
+        // Make one codec for each basis and encoder: some need quadratures to set up.
         if (!pairs.insert(name.basis + "/" + name.encoder).second) {
             const auto evaluator = make_evaluator(name.evaluator, *make_basis(name.basis).value());
             ASSERT_TRUE(evaluator) << name.str();

@@ -1,5 +1,5 @@
-// What every codec of the list must hold to, and a few bases beyond it: whoever adds a basis, an encoder or an
-// evaluator to codecs.cpp has all of this tested. Tests run over all of them; a trace names the one that fails.
+// Conformance tests of every codec in the list, and of a few bases beyond it. A basis, encoder or evaluator added to
+// the catalogue is tested here without further code; a trace names the one that fails.
 #include "lobelia/codec.h"
 
 #include <gtest/gtest.h>
@@ -33,7 +33,7 @@ const std::vector<BasisPtr>& bases() {
 
 using ForEncoder = std::function<void(const BasisPtr&, const std::string&, const EncoderPtr&)>;
 
-/// An encoder of the list, made once: some take quadratures to set up.
+/// Returns a listed encoder, made once: some need quadratures to set up.
 const EncoderPtr& encoder_of(const BasisPtr& basis, const std::string& name) {
     static std::map<std::pair<std::string, std::string>, EncoderPtr> made;
     EncoderPtr& encoder = made[{basis->name(), name}];
@@ -41,10 +41,11 @@ const EncoderPtr& encoder_of(const BasisPtr& basis, const std::string& name) {
     return encoder;
 }
 
-/// Whether equal but for rounding means equal coefficients: not where lobes are searched for.
+/// Whether samples that differ by rounding give coefficients that differ by rounding. Not true where lobes are searched
+/// for.
 bool is_continuous(const Basis& basis) { return !basis.fitted() || basis.fitted()->is_continuous(); }
 
-/// Every encoder that suits every basis.
+/// Calls `run` for every basis with every compatible encoder.
 void for_each_encoder(const ForEncoder& visit) {
     for (const BasisPtr& basis : bases())
         for (const auto& name : encoder_names(*basis)) {
@@ -83,7 +84,7 @@ std::vector<Rgb> best_fit(const BasisPtr& basis, SampleView samples) {
     return c;
 }
 
-/// |a - b| / |b| of the radiance that coefficients stand for: exactly, by the Gram matrix, or at many directions.
+/// |a - b| / |b| of the radiance of two coefficient vectors: exact by the Gram matrix, or at many directions.
 double excess(const Basis& basis, const std::vector<Rgb>& a, const std::vector<Rgb>& b) {
     if (basis.linear()) return test::excess(*basis.linear(), a, b);
     const Directions directions = uniform_directions(basis.domain(), Sequence::sobol, 1024, 21);
@@ -108,7 +109,7 @@ Samples sky_samples(Domain domain, std::size_t count, Sequence sequence = Sequen
     return reordered(samples, shuffled_order(count, generator));
 }
 
-/// Normals whose irradiance is all within the domain: any over the sphere, the surface's own over the hemisphere.
+/// Normals whose light all comes from the domain: any normal for the sphere, only z for the hemisphere.
 Directions inner_normals(Domain domain) {
     if (domain == Domain::sphere) return test::random_directions(domain, 100, 6);
     Directions up(1);
@@ -116,37 +117,38 @@ Directions inner_normals(Domain domain) {
     return up;
 }
 
-// ---- Environments whose answers are known ----
+// ---- Environments with known answers ----
 
 constexpr std::size_t k_furnace_samples = 16384;
 
-/// What an encoder may add, in radiance (root mean square), to the least squares fit of an environment of radiance 1,
-/// or 1 + 0.5 d . a, after k_furnace_samples shuffled Sobol samples, and why; measured, then rounded up by a third or
-/// so. K is the number of coefficients.
+/// Largest bias of an encoder, as RMS radiance beyond the least-squares fit, for an environment of radiance 1 or 1 +
+/// 0.5 d . a after k_furnace_samples shuffled Sobol samples. Each value is measured and rounded up by about a third. K
+/// is the number of coefficients.
 double bias(const std::string& encoder, const Basis& basis) {
     const double k = static_cast<double>(basis.size()), share = k / k_furnace_samples;
     const std::map<std::string, double> biases = {
-        // Ignores the overlap of functions and keeps the total energy only; exact where they are orthonormal.
+        // Projection ignores the overlap of functions and keeps only the total energy; exact for orthonormal functions.
         {"projection", is_non_negative(basis) ? 0.4 : 1e-3},
-        // Weigh every lobe by its own sum of weights: no least squares, and broad lobes take from narrow ones.
+        // Running averages divide each lobe by its own sum of weights: not least squares, and broad lobes take from
+        // narrow ones.
         {"running-average", 0.08},
         {"running-average-nn", 0.08},
-        // Converge as n^-mu, mu the least eigenvalue of the unit-diagonal Gram matrix. With many functions the first K
-        // samples overshoot, by up to K / n each, and what that leaves decays as 1 / n only.
+        // Progressive encoders converge as n^-mu, where mu is the least eigenvalue of the unit-diagonal Gram matrix.
+        // With many functions the first K samples overshoot by up to K / n each, and that error decays only as 1 / n.
         {"progressive", k > 36 ? 0.7 : 0.1},
         {"progressive-nn", 0.1},
-        // The moments of the samples are not those of the domain: the sequence's own error.
+        // The moments of the samples differ from those of the domain by the error of the sequence.
         {"moments", k > 100                  ? 0.04
                     : basis.name() == "oct8" ? 0.015
                                              : 1e-3},
-        // Exact but for float32 sums, where all coefficients of the fit are positive.
+        // Exact except for float32 sums, if all coefficients of the fit are positive.
         {"least-squares", 1e-5},
         {"nnls", 0.06},
-        // The prior, a constant environment, weighs K / (N + K) at most, and is wrong by 0.5 d . a.
+        // The prior, a constant environment, has weight K / (N + K) at most, and an error of 0.5 d . a.
         {"regularised", 1e-5 + 0.6 * share},
         // The prior b = 0 has weight K / (N + K).
         {"matrix-gain", 2.2 * share},
-        // Gives up radiance for irradiance.
+        // The joint norm trades radiance error for irradiance error.
         {"joint", 0.045},
         {"joint-nn", 0.06},
     };
@@ -154,8 +156,7 @@ double bias(const std::string& encoder, const Basis& basis) {
     return found == biases.end() ? 0 : found->second;  // 0: a new encoder states its own here
 }
 
-/// Largest error of an evaluator of these coefficients by what it states, E / pi; none where a lobe is out of its
-/// range.
+/// Largest error of E / pi that an evaluator states for these coefficients; nothing if a lobe is outside its range.
 std::optional<double> stated_error(const Basis& basis, const std::string& evaluator, const std::vector<Rgb>& c) {
     const auto* gaussians = dynamic_cast<const SphericalGaussians*>(&basis);
     if (!gaussians) return 1e-6 * test::norm(c);
@@ -200,12 +201,12 @@ double worst_of_irradiance(const Colours& colours, const LinearEnvironment& envi
     return worst;
 }
 
-/// The most accurate evaluator of a basis: the last of the Gaussians', the signed one of the harmonics'.
+/// Returns the most accurate evaluator of a basis: the last for Gaussians, the signed one for harmonics.
 std::shared_ptr<const Evaluator> exact_evaluator(const Basis& basis) {
     return basis.evaluator(basis.evaluator_names().back());
 }
 
-/// Every codec is within its encoder's bias and its evaluator's stated error of what the basis can do at best.
+/// Checks every codec against the best fit of its basis, within the encoder's bias and the evaluator's stated error.
 void expect_environment(const LinearEnvironment& environment) {
     for (const BasisPtr& basis : bases()) {
         const Domain domain = basis->domain();
@@ -220,11 +221,12 @@ void expect_environment(const LinearEnvironment& environment) {
             SCOPED_TRACE(basis->name() + "/" + name);
             const auto c = encode(encoder_of(basis, name), samples);
 
-            // Radiance.
+            // Check the radiance.
             const double allowed = bias(name, *basis);
             const Colours radiance = radiance_of(*basis, c, directions);
             EXPECT_LE(rms_of_radiance(radiance, environment, directions), best_rms + allowed);
-            // Channels do not mix; where a fitted basis shares something among them, by little more than it is off.
+            // Check that channels do not mix; a fitted basis that shares data among channels may mix them by little
+            // more than its error.
             double mixing = 0, from_nothing = 0;
             for (std::size_t i = 0; i < directions.size(); ++i) {
                 mixing = std::max(mixing, std::abs(radiance.channel(0)[i] - radiance.channel(1)[i] / 2.0));
@@ -233,12 +235,13 @@ void expect_environment(const LinearEnvironment& environment) {
             EXPECT_LE(mixing, basis->linear() ? 1e-4 : 1e-4 + 20 * (best_rms + allowed));
             EXPECT_LE(from_nothing, basis->linear() ? 1e-6 : 1e-4 + 20 * (best_rms + allowed));
 
-            // Irradiance, of all evaluators: what the best coefficients give, the bias, and what the evaluator states.
-            // An irradiance over pi is a mean of radiances, and so no further off than a half more than their RMS.
+            // Check the irradiance of all evaluators: the limit is the error of the best coefficients, the bias, and
+            // the evaluator's stated error. E / pi is a mean of radiances, so its error is at most half more than their
+            // RMS error.
             for (const auto& evaluator_name : basis->evaluator_names()) {
                 const Colours E = irradiance_of(*basis->evaluator(evaluator_name), c, normals);
                 EXPECT_TRUE(test::all_finite(E)) << evaluator_name;
-                // What is a model of its own is held to a constant environment only.
+                // Evaluators that are models of their own must only reproduce a constant environment.
                 const Accuracy accuracy = basis->evaluator(evaluator_name)->accuracy();
                 const bool own = accuracy.reading == Reading::of_its_own;
                 const auto stated = own ? std::optional(accuracy.furnace) : stated_error(*basis, evaluator_name, c);
@@ -327,8 +330,8 @@ TEST(EveryCodec, RotatedCoefficientsAreTheRotatedFunction) {
 
 TEST(EveryCodec, RotationEquivariance) {
     for_each_encoder([](const BasisPtr& basis, const std::string& name, const EncoderPtr& encoder) {
-        // The progressive forms treat coefficients one by one: equivariant where the functions turn with the samples,
-        // as lobes do, but not where coefficients mix, as those of harmonics.
+        // Progressive encoders treat coefficients one by one. They are equivariant if the functions rotate with the
+        // samples, as lobes do, but not if coefficients mix, as in harmonics.
         if (name.starts_with("progressive") && !is_non_negative(*basis)) return;
         const Domain domain = basis->domain();
         const Rotation r = domain == Domain::sphere ? test::some_rotation() : test::about_z(0.8);
@@ -363,8 +366,8 @@ TEST(EveryCodec, MergeEqualsSequential) {
             EXPECT_LE(excess(*basis, merged({2048}), whole), 2e-5);
             EXPECT_LE(excess(*basis, merged({7, 1000, 1001, 3333}), whole), 2e-5);
         } else if (basis->size() <= 36) {
-            // Averages of estimates lag behind one pass: at most this much further from the solution. (Beyond 36
-            // coefficients the overshoot of the first samples decides, and each part has its own.)
+            // Averages of estimates lag behind one pass: they may be this much further from the solution. (Beyond 36
+            // coefficients the overshoot of the first samples dominates, and each part has its own.)
             const auto limit = encode(encoder_of(basis, encoder_limit(name)), samples);
             const double sequential = excess(*basis, whole, limit);
             EXPECT_LE(excess(*basis, merged({2048}), limit), 2.5 * sequential + 0.02);
@@ -401,8 +404,8 @@ TEST(EveryCodec, PiecesOfAnySizeEqualOneBatch) {
                 accumulator.add(test::slice(samples, begin, end));
                 begin = end;
             }
-            // The sums are the same but for float32 rounding, a few 1e-6 for 700 single samples, which the
-            // conditioning of a fit to a sun multiplies, most where an ambient lobe nearly is a sum of the others.
+            // The sums are equal except for float32 rounding, a few 1e-6 for 700 single samples. The condition number
+            // of a fit to a sun multiplies it, most for an ambient lobe that is nearly a sum of the others.
             EXPECT_LE(excess(*basis, accumulator.solve(), expected), 2e-4) << "pieces from " << sizes[0];
         }
     });

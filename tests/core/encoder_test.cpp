@@ -1,5 +1,5 @@
-// Each encoder finds what it promises: solvers against oracles, convergence of those that learn, and, on the published
-// environment, the figures of the reference.
+// Tests each encoder: solvers against oracles, convergence of sequential encoders, and published figures on the
+// published environment.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -27,7 +27,7 @@ std::vector<Rgb> encode(const char* encoder, const BasisPtr& basis, SampleView s
     return encode(make_encoder(encoder, basis).value(), samples);
 }
 
-/// A bright patch and a dim one before a gradient: no basis here holds it exactly.
+/// A bright and a dim patch over a gradient: no basis here represents it exactly.
 Rgb patches(Vec3 d) {
     const float a = dot(d, normalize(Vec3{1, 2, 3})), b = dot(d, normalize(Vec3{-2, 1, 1}));
     return {1 + d.x + 4 * std::exp(8 * (a - 1)), 0.5f + std::exp(8 * (a - 1)), 0.2f + 3 * std::exp(12 * (b - 1))};
@@ -68,7 +68,7 @@ TEST(LeastSquares, RecoversWhatIsInTheSpan) {
         for (std::size_t i = 0; i < 2000; ++i)
             samples.set(i, {direction_at(directions, i), colour_at(radiance, i), 1 + static_cast<float>(i % 7)});
         for (const char* encoder : {"least-squares", "matrix-gain", "regularised"}) {
-            // The prior of the last two weighs n / (N + n) at most.
+            // The prior of the last two has weight n / (N + n) at most.
             const double tolerance = std::string(encoder) == "least-squares" ? 1e-4 : 0.05;
             EXPECT_LE(test::excess(*basis, encode(encoder, basis, samples), truth), tolerance) << name << encoder;
         }
@@ -107,7 +107,7 @@ TEST(MatrixGain, ApproachesLeastSquares) {
 }
 
 TEST(Regularised, IsFiniteAndNoWorseThanItsNeighboursFromTheFirstSample) {
-    // Its neighbours are the sampled and the exact Gram matrix alone. Averages over 64 seeds.
+    // Compare it with the sampled and with the exact Gram matrix alone, averaged over 64 seeds.
     for (const char* name : {"sg12", "sg12h"}) {
         const BasisPtr basis = basis_of(name);
         const auto limit = encode("least-squares", basis, smooth(basis->domain(), 16384));
@@ -317,7 +317,7 @@ TEST(Progressive, EveryPublishedChoiceConverges) {
         EXPECT_LT(error(16384), 0.7 * error(256)) << name;
         EXPECT_LT(error(16384), 0.05) << name;
 
-        // Its non-negative form stays so, and converges to a solution as good as that of least squares with b >= 0.
+        // The non-negative form stays non-negative, and converges to a solution as good as least squares with b >= 0.
         const auto c = encode(make_progressive(basis, Sign::non_negative, options), smooth(Domain::sphere, 16384));
         for (const Rgb& v : c) EXPECT_GE(std::min({v.r, v.g, v.b}), 0) << name;
         EXPECT_LT(test::excess(*basis, c, encode("nnls", basis, smooth(Domain::sphere, 16384))), 0.05) << name;
@@ -360,7 +360,7 @@ TEST(RunningAverage, IsItsFormula) {
 
 // ---- The published environment ----
 
-/// Mean over seeds of the excess, against their own limits, of encoders that see the first `count` shuffled texels.
+/// Mean over seeds of the excess error, against each encoder's own limit, after the first `count` shuffled texels.
 class EnnisConvergence {
   public:
     explicit EnnisConvergence(const char* basis) : basis_(basis_of(basis)) {
@@ -405,7 +405,7 @@ TEST(EnnisConvergence, RegularisedIsNeverWorseThanProgressiveFrom16Samples) {
 
 TEST(EnnisFigures, AreThoseOfTheReference) {
     SKIP_WITHOUT_ENNIS();
-    // Root mean squares weighted by solid angle; irradiance over pi is divided by the mean radiance, with exact E of
+    // RMS errors weighted by solid angle. Irradiance over pi is divided by the mean radiance, with exact E for
     // Gaussians, and harmonics clamped at 0.
     const Samples texels = texel_samples(test::ennis());
     const SampleView view = texels;

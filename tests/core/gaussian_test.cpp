@@ -1,4 +1,4 @@
-// The closed forms of spherical Gaussians agree with quadrature at every sharpness, and so do Gram matrices of sets.
+// Tests the closed forms of spherical Gaussians and their Gram matrices against quadrature at every sharpness.
 #include "core/math/gaussian.h"
 
 #include <gtest/gtest.h>
@@ -85,8 +85,8 @@ TEST(Gaussian, ProductOfOppositeLobesIsConstant) {
 }
 
 TEST(Gaussian, InnerProductEqualsQuadrature) {
-    // The sharper lobe stands at z, where the panels are narrow; the other is tilted, and integrating it over azimuths
-    // gives a Bessel function, which does not overflow at a sharpness of 100.
+    // The sharper lobe points along z, where the panels are narrow. The other is tilted; its integral over azimuths is
+    // a Bessel function, which does not overflow at a sharpness of 100.
     for (const double s : k_sharpness)
         for (const double t : {0.0, 1e-6, 1e-3, 0.1, 1.0, 6.0, 30.0, 100.0})
             for (const double angle : {0.0, 0.1, 0.7, 1.5, 2.5, k_pi}) {
@@ -114,7 +114,7 @@ TEST(Gaussian, InnerProductIsTheIntegralOfTheProduct) {
                 EXPECT_NEAR(gaussian::inner_product(a, b), expected, 1e-6 * expected) << s << " " << t << " " << angle;
                 EXPECT_TRUE(std::isfinite(expected));
             }
-    // Where the naive form overflows float32, and where it would double.
+    // Cases where the naive form overflows float32, and where it would be wrong by a factor of two.
     const Lobe sharp = lobe_at(0, 1e4);
     EXPECT_NEAR(gaussian::inner_product(sharp, sharp), k_pi / 1e4, 1e-9 * k_pi / 1e4);
 }

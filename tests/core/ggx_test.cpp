@@ -1,8 +1,8 @@
-// The GGX reflection: sampling against density, rays against quadrature, the table of whole lobes, any basis by
-// sampling.
+// Tests GGX reflection: samples against the pdf, rays against quadrature, the lobe table, sampled evaluation of any
+// basis.
 #include "core/math/ggx.h"
 
-#include "core/math/ggx_fast.h"
+#include "core/sample/ggx_fast.h"
 #include "lobelia/codec.h"
 #include "lobelia/specular.h"
 #include "support.h"
@@ -127,7 +127,7 @@ TEST(Ggx, WhiteFurnaceLosesOnlyWhatFacetsHide) {
         before = albedo;
     }
     EXPECT_NEAR(ggx::lobe(ggx::make_view(0.7f, 0.01f)).albedo, 1, 2e-3);
-    // Along the normal at alpha 1: D is 1 / pi, and the integral comes to 1 - ln 2.
+    // View along the normal at alpha 1: D is 1 / pi, and the integral is 1 - ln 2.
     EXPECT_NEAR(ggx::lobe(ggx::make_view(1, 1)).albedo, 1 - std::log(2.0), 1e-3);
     for (const auto& view : k_glossy_views)
         EXPECT_NEAR(ggx::lobe(view).albedo, over_upper_hemisphere([&](Vec3 l) { return ggx::reflection(view, l); }),

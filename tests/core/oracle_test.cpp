@@ -1,4 +1,4 @@
-// The sequential encoders against their published formulae, written out once more in plain double precision.
+// Tests the sequential encoders against their published formulae, written again in plain double precision.
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>

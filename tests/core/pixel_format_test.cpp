@@ -1,4 +1,4 @@
-// Every pixel format: the kernels are their plain forms on all instruction sets, round trips, any bytes and any size.
+// Tests every pixel format: kernels against plain forms on all instruction sets, round trips, any bytes, any size.
 #include "lobelia/pixel_format.h"
 
 #include <cstring>
@@ -16,7 +16,7 @@
 namespace lobelia {
 namespace {
 
-/// Four channels of numbers of every size, within [0, 1] half of the time, with corner cases first.
+/// Four channels of numbers of every magnitude, half of them within [0, 1], with corner cases first.
 class Channels {
   public:
     Channels(std::size_t count, std::uint32_t seed) : values_(4, std::vector<float>(count)) {
@@ -128,7 +128,7 @@ TEST(PixelFormats, NumbersOfBitsAreThoseOfThePlainForm) {
     });
 }
 
-/// A colour format's kernels give its plain form's words, and read them as it does.
+/// Checks that a colour format's kernels encode and decode the same words as its plain form.
 void expect_colours(PixelFormat format, const std::function<std::uint32_t(Rgb)>& to,
                     const std::function<Rgb(std::uint32_t)>& from) {
     const Channels in(k_count, 3);
@@ -176,7 +176,7 @@ TEST(PixelFormats, LogluvIsItsPlainFormButForRounding) {
 TEST(PixelFormats, KnownTexels) {
     EXPECT_EQ(texels::rgb9e5_from({1, 0.5f, 0}), 0x80010100u);  // 256, 128, 0 times 2^(16 - 24)
     EXPECT_EQ(texels::rgb9e5_from({65408, 65408, 65408}), 0xffffffffu);
-    // What would round into the next exponent stays below, and leaves the others their precision.
+    // A value that would round up to the next exponent is rounded down, so the other channels keep their precision.
     EXPECT_EQ(texels::rgb9e5_from({511.75f, 1, 0}), texels::rgb9e5_from({511, 1, 0}));
     EXPECT_EQ(texels::rgbe_from({255.75f, 1, 0}), texels::rgbe_from({255, 1, 0}));
     EXPECT_EQ(texels::rgbe_from({1, 0.5f, 0}), 0x81004080u);  // 128, 64, 0 times 2^(129 - 136)
@@ -206,7 +206,7 @@ TEST(PixelFormats, TheTableIsComplete) {
 TEST(PixelFormats, WhatWasReadOnceIsReadAgain) {
     const Channels in(k_count, 5);
     for (const PixelFormat format : pixel_formats()) {
-        // The factor of rgbm8 and the ends of blocks may be chosen anew.
+        // Encoding again may choose another rgbm8 factor and other block endpoints.
         if (format == PixelFormat::rgbm8 || format == PixelFormat::logluv32 || info(format).block > 1) continue;
         SCOPED_TRACE(info(format).name);
         const auto once = decoded(format, k_count, 1, encoded(format, k_count, 1, in.first(info(format).channels)));
@@ -226,7 +226,7 @@ TEST(PixelFormats, EverySizeAndPlaceGivesTheSame) {
             const std::size_t size = byte_size(format, count, 1);
             const auto bytes = encoded(format, count, 1, in.first(info(format).channels));
             EXPECT_TRUE(std::equal(bytes.begin(), bytes.end(), whole.begin())) << count;
-            // Bytes that are not aligned, as within a file.
+            // Decode from unaligned bytes, as within a file.
             std::vector<std::byte> odd(size + 1);
             encode_texels(format, count, 1, in.first(info(format).channels), std::span(odd).subspan(1));
             EXPECT_TRUE(std::equal(bytes.begin(), bytes.end(), odd.begin() + 1)) << count;

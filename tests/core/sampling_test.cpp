@@ -1,4 +1,5 @@
-// Samplers agree with their densities and inverses; sequences fill the square as they promise; draws are unbiased.
+// Tests that samplers agree with their pdfs and inverses, that sequences cover the square evenly, that draws are
+// unbiased.
 #include "lobelia/sampling.h"
 
 #include <gtest/gtest.h>
@@ -25,7 +26,7 @@ TYPED_TEST(Samplers, SampleToInverseRoundTrip) {
             const Vec3 d = TypeParam::sample({a, b});
             const Point2 p = TypeParam::inverse(d);
             EXPECT_NEAR(length(d), 1, 2e-7);
-            // Components are rounded by 6e-8 at most, which counts 1 / r in the azimuth and 2 at most in a.
+            // Components are rounded by 6e-8 at most; the factor is 1 / r in the azimuth, and 2 at most in a.
             const double r = std::hypot(d.x, d.y);
             EXPECT_NEAR(p.a, a, 1.3e-7);
             EXPECT_NEAR(p.b, b, 6e-8 / r) << a;
@@ -301,7 +302,7 @@ TEST(Shuffle, SpreadOrderIsAPermutationOfWhichEveryBeginningIsSpread) {
             for (const std::uint32_t place : order) EXPECT_LT(place, count);
             EXPECT_EQ(order, spread_order(count, seed));
         }
-    // Of 1024 places, the first 2^k fall into 2^k different parts.
+    // The first 2^k of 1024 places fall into 2^k different parts.
     const auto order = spread_order(1024, 7);
     for (std::size_t parts = 1; parts <= 1024; parts *= 2) {
         std::set<std::size_t> seen;
@@ -326,7 +327,7 @@ TEST(Shuffle, ReorderedPutsEachSampleInItsPlace) {
     }
 }
 
-/// Probability of each index, by finding where each column turns from itself to its alias.
+/// Computes the probability of each index: bisects where each column changes from itself to its alias.
 std::vector<double> enumerated(const AliasTable& table) {
     const double share = 1.0 / static_cast<double>(table.size());
     std::vector<double> probability(table.size());
@@ -361,7 +362,7 @@ TEST(AliasTable, ProbabilitiesAreTheWeightsByEnumeration) {
         const auto probability = enumerated(table);
         double sum = 0;
         for (std::size_t i = 0; i < weights.size(); ++i) {
-            // Thresholds are float32, and a column's rest is handed on from column to column.
+            // Thresholds are float32, and the rest of a column is passed from column to column.
             EXPECT_NEAR(probability[i], weights[i] / total, 1e-6) << i << " of " << weights.size();
             EXPECT_NEAR(table.probability(i), weights[i] / total, 1e-6);
             sum += probability[i];

@@ -1,4 +1,4 @@
-// Sobol pairs fill the square evenly, whatever their number, and come out the same one by one and in vectors.
+// Tests that Sobol pairs cover the square evenly at any count, and that single and vector evaluation agree.
 #include "core/sample/sequence.h"
 
 #include <gtest/gtest.h>

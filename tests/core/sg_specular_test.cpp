@@ -1,4 +1,5 @@
-// Glossy reflection of spherical Gaussians against rays: stated errors, the published table, both ends, frames.
+// Tests specular evaluators of spherical Gaussians against rays: stated errors, the published table, both limits,
+// frames.
 #include "core/basis/sg/sg_specular.h"
 
 #include "lobelia/codec.h"
@@ -13,7 +14,7 @@ float lobe_through_rays(const std::vector<ggx::Ray>& rays, float sharpness, Vec3
     return sum;
 }
 
-/// What a kind makes of one lobe.
+/// Evaluates one lobe by one formula.
 float read_gloss(SgSpecular kind, const ggx::View& view, float sharpness, Vec3 axis) {
     Directions axes(1);
     set_entry(axes, 0, axis);
@@ -70,7 +71,7 @@ TEST(SgSpecular, ReproducesThePublishedTable) {
     EXPECT_NEAR(of(SgSpecular::sg_warp), 0.41, 0.041);
     EXPECT_NEAR(of(SgSpecular::asg_warp), 0.41, 0.041);
     EXPECT_NEAR(of(SgSpecular::tokuyoshi_2024), 0.22, 0.022);
-    // The new form: a third of the best of them.
+    // The new form has a third of the error of the best published one.
     EXPECT_LT(of(SgSpecular::two_ends), 0.073);
     EXPECT_LT(of(SgSpecular::two_ends), of(SgSpecular::moments));
     EXPECT_LT(of(SgSpecular::two_ends), of(SgSpecular::masked));
@@ -83,13 +84,13 @@ TEST(SgSpecular, WhiteFurnace) {
             const float albedo = ggx::lobe(view).albedo;
             for (const auto& info : sg_specular_list())
                 EXPECT_FLOAT_EQ(read_gloss(info.kind, view, 0, {0, 0, 1}), albedo) << info.name;
-            // And in the limit, for the new form.
+            // Check the limit of the new form, too.
             for (const Vec3 axis : {Vec3{0, 0, 1}, Vec3{1, 0, 0}, Vec3{0, 0, -1}})
                 EXPECT_NEAR(read_gloss(SgSpecular::two_ends, view, 1e-3f, axis), albedo, 4e-3);
         }
 }
 
-// A broad lobe is 1 + sharpness (axis . w - 1), nearly; what the second order leaves is below sharpness^2.
+// A broad lobe is nearly 1 + sharpness (axis . w - 1); the second-order remainder is below sharpness^2.
 TEST(SgSpecular, TwoEndsIsExactForBroadLight) {
     constexpr float sharpness = 0.05f;
     for (float alpha : {0.1f, 0.4f, 0.9f})
@@ -126,7 +127,7 @@ TEST(SgSpecular, FiniteAndNotNegativeEverywhere) {
                             << info.name << " " << alpha << " " << cosine << " " << sharpness << ": " << value;
 }
 
-/// TurnedPoints on a sphere, seen from one direction, turned.
+/// Points on a sphere, seen from one direction, with a rotation applied.
 struct TurnedPoints {
     Directions normals, views;
     std::vector<float> alphas;

@@ -1,5 +1,5 @@
-// Conventions of others: known answers of cases worked out by hand, each target's own formula against exact irradiance,
-// round trips, mirrored worlds, and files that are not what they should be.
+// Tests SH conventions of other engines: cases computed by hand, each engine's own formula against exact irradiance,
+// round trips, mirrored axes, and bad files.
 #include "lobelia/sh_conventions.h"
 
 #include <cmath>
@@ -16,8 +16,8 @@ namespace {
 
 using nlohmann::json;
 
-/// Our coefficients of L = ambient + slope a . d, and of a directional light of irradiance `light` (across itself) from
-/// the unit direction b: worked out with the polynomials, for constants integrate to 4 pi, and d_i d_j to 4 pi / 3.
+/// Our coefficients of L = ambient + slope a . d, plus a directional light of irradiance `light` (across its direction)
+/// from the unit direction b. Computed with the polynomials: constants integrate to 4 pi, and d_i d_j to 4 pi / 3.
 struct DirectionalLights {
     double ambient = 0, slope = 0, light = 0;
     Vec3 a{0, 0, 1}, b{0, 0, 1};
@@ -37,8 +37,8 @@ struct DirectionalLights {
         }
         return result;
     }
-    /// E / pi up to degree 2: 1 and 2/3 of a constant and a linear sky; of the light, the clamped cosine of degree 2,
-    /// 1/4 + 1/2 c + 5/32 (3 c^2 - 1), over pi.
+    /// E / pi up to degree 2: a constant sky times 1, a linear sky times 2/3, and the light times the degree-2 clamped
+    /// cosine, 1/4 + 1/2 c + 5/32 (3 c^2 - 1), over pi.
     [[nodiscard]] double irradiance_over_pi(Vec3 n) const {
         const double c = dot(b, n);
         return ambient + slope * 2 / 3 * dot(a, n) + light / k_pi * (0.25 + 0.5 * c + 5.0 / 32 * (3 * c * c - 1));
@@ -54,7 +54,7 @@ std::vector<DirectionalLights> scenes() {
 
 const ShConvention& convention(const char* name) { return *find_sh_convention(name).value(); }
 
-// ---- The targets' own formulae, written from their documentation, for one channel; E / pi of them
+// ---- E / pi for one channel by the engines' own formulae, written from their documentation
 
 using Nine = std::array<double, 9>;
 
@@ -64,7 +64,7 @@ Nine green(std::span<const Rgb> c) {
     return result;
 }
 
-/// XMSHEvalDirection of the directions and coefficients, band by band times pi, 2 pi / 3, pi / 4.
+/// XMSHEvalDirection, multiplied band by band by pi, 2 pi / 3, pi / 4.
 double directx(const Nine& c, Vec3 n) {
     const double x = n.x, y = n.y, z = n.z;
     const double functions[9] = {0.282094792,
@@ -81,7 +81,7 @@ double directx(const Nine& c, Vec3 n) {
     return sum;
 }
 
-/// ShadeSH9: the constants as Unity's packing of the nine has them.
+/// ShadeSH9, with the constants as Unity packs the nine coefficients.
 double unity(const Nine& c, Vec3 n) {
     const double x = n.x, y = n.y, z = n.z;
     const double A[4] = {c[3], c[1], c[2], c[0] - c[6]}, B[4] = {c[4], c[5], c[6] * 3, c[7]};
@@ -104,7 +104,7 @@ double filament(const Nine& c, Vec3 n) {
            c[8] * (x * x - y * y);
 }
 
-/// Babylon.js: convertIrradianceToLambertianRadiance, then its functions, which have the signs of Condon and Shortley.
+/// Babylon.js: convertIrradianceToLambertianRadiance, then its functions, which have Condon-Shortley signs.
 double babylon(const Nine& c, Vec3 n) {
     const double x = n.x, y = n.y, z = n.z;
     const double functions[9] = {0.282094792,
@@ -166,14 +166,14 @@ TEST(ShConventions, ALinearSky) {
 }
 
 TEST(ShConventions, ADirectionalLight) {
-    // Of irradiance pi from +z: Y of the pole times pi; E / pi = 1/4 + z / 2 + 5/32 (3 z^2 - 1).
+    // A light of irradiance pi from +z: Y at the pole times pi; E / pi = 1/4 + z / 2 + 5/32 (3 z^2 - 1).
     const DirectionalLights pole{.light = k_pi, .b = {0, 0, 1}};
     const double Y0 = std::sqrt(1 / (4 * k_pi)), Y1 = std::sqrt(3 / (4 * k_pi)), Y2 = std::sqrt(5 / (4 * k_pi));
     expect_coefficients("directx", pole, {k_pi * Y0, 0, k_pi * Y1, 0, 0, 0, k_pi * Y2});
     expect_coefficients("three", pole, {k_pi * Y0, 0, k_pi * Y1, 0, 0, 0, k_pi * Y2});
     expect_coefficients("unity", pole, {0.25, 0, 0.5, 0, 0, 0, 5.0 / 32});
     expect_coefficients("filament", pole, {0.25, 0, 0.5, 0, 0, 0, 5.0 / 32});
-    // From +x: the signs of Condon and Shortley show in index 3; xy, yz and xz vanish; x^2 - y^2 is 1.
+    // A light from +x: Condon-Shortley signs show in index 3; xy, yz and xz vanish; x^2 - y^2 is 1.
     const DirectionalLights right{.light = k_pi, .b = {1, 0, 0}};
     const double k8 = k_pi * std::sqrt(15 / (16 * k_pi)), k6 = -k_pi * std::sqrt(5 / (16 * k_pi));
     expect_coefficients("directx", right, {k_pi * Y0, 0, 0, -k_pi * Y1, 0, 0, k6, 0, k8});

@@ -1,4 +1,4 @@
-// Glossy reflection of spherical harmonics: exact limits, stated errors.
+// Tests specular evaluators of spherical harmonics: exact limits, stated errors.
 #include "core/basis/sh/sh_specular.h"
 
 #include "core/math/ggx.h"
@@ -10,13 +10,13 @@
 namespace lobelia {
 namespace {
 
-/// Harmonic coefficients of ((1 + axis . w) / 2)^degree: a lobe that is nowhere negative and of this degree exactly.
+/// Harmonic coefficients of ((1 + axis . w) / 2)^degree: a non-negative lobe of exactly this degree.
 std::vector<Rgb> power_lobe(std::size_t degree, Vec3 axis) {
     const auto y = harmonics::values(degree, axis.x, axis.y, axis.z);
     const GaussLegendre rule(degree + 1);
     std::vector<Rgb> c(y.size());
     for (std::size_t l = 0, i = 0; l <= degree; ++l) {
-        // Its zonal coefficient, 2 pi times the integral against P_l.
+        // Compute the zonal coefficient, 2 pi times the integral against P_l.
         double k = 0;
         for (std::size_t q = 0; q < rule.nodes.size(); ++q)
             k += 2 * k_pi * rule.weights[q] * std::pow((1 + rule.nodes[q]) / 2, degree) *
@@ -29,7 +29,7 @@ std::vector<Rgb> power_lobe(std::size_t degree, Vec3 axis) {
     return c;
 }
 
-/// Root mean square of the difference to many rays, over that of the truth.
+/// RMS difference to the reference (many rays), over the RMS of the reference.
 double gloss_error(std::string_view name, std::size_t degree, std::span<const Rgb> c, const PointsAtAngle& points) {
     const auto basis = make_basis("sh" + std::to_string(degree)).value();
     return relative_specular_error(*make_specular(name, basis).value(), *make_sampled_specular(basis, 1024), c, points);
@@ -88,7 +88,7 @@ TEST(ShSpecular, WhiteFurnace) {
 }
 
 TEST(ShSpecular, DominantIsExactForOneLamp) {
-    // Degree 1 of a lamp: its irradiance across the beam is 1.
+    // Degree 1 of a directional light whose irradiance across the beam is 1.
     const auto y = harmonics::values(1, k_power_axis.x, k_power_axis.y, k_power_axis.z);
     std::vector<Rgb> c(4);
     for (std::size_t i = 0; i < 4; ++i) c[i] = Rgb{1, 1, 1} * static_cast<float>(y[i]);

@@ -1,5 +1,5 @@
-// Every storage, with coefficients of every kind that suits it: its bound is never exceeded, is not stated much larger
-// than it is, and its layout keeps each coefficient's channel exactly once.
+// Tests every storage with all kinds of compatible coefficients: its bound holds and is not stated much too large, and
+// its layout stores each channel of each coefficient exactly once.
 #include "lobelia/storage.h"
 
 #include <set>
@@ -37,14 +37,14 @@ class LightmapPage {
     std::vector<std::vector<float>> values_;
 };
 
-/// What codecs are like, in all that a storage can ask; by name.
+/// Coefficient traits of all codecs, by name.
 std::vector<std::pair<std::string, CoefficientTraits>> all_traits() {
     std::vector<std::pair<std::string, CoefficientTraits>> result;
     std::set<std::tuple<std::size_t, bool, bool, std::vector<float>>> seen;
     for (const auto& basis_name : basis_names())
         for (const char* encoder_name : {"moments", "nnls"}) {
             const auto encoder = make_encoder(encoder_name, make_basis(basis_name).value());
-            if (!encoder) continue;  // NNLS suits some bases only
+            if (!encoder) continue;  // NNLS supports some bases only
             const auto t = coefficient_traits(**encoder);
             if (t.count <= 25 && seen.emplace(t.count, t.non_negative, t.colours, t.lead_bounds).second)
                 result.emplace_back(basis_name + "/" + encoder_name, t);
@@ -55,7 +55,7 @@ std::vector<std::pair<std::string, CoefficientTraits>> all_traits() {
 enum class Texture { smooth, noisy };
 
 TEST(SharedExponents, KeepTheirBoundWhereTheLargestComponentIsAboutToDouble) {
-    // The largest a little below a power of two, the others at every place between two steps.
+    // The largest value lies a little below a power of two, the others at every position between two steps.
     const CoefficientTraits traits{1, true, true, {}};
     for (const char* name : {"rgb9e5", "rgbe"}) {
         const Storage& storage = *find_storage(name).value();
@@ -86,7 +86,7 @@ LightmapPage random_page(const CoefficientTraits& traits, std::size_t width, std
         const float phase = 6 * uniform(), slope = 0.1f + 0.2f * uniform();
         for (std::size_t i = 0; i < page.size(); ++i) {
             const float x = static_cast<float>(i % width), y = static_cast<float>(i / width);
-            // Noise of ten octaves, with extremes; or waves of a texel's tenth.
+            // Noise over ten octaves, with extremes, or waves of a tenth of a texel.
             float v = std::sin(slope * (x + 0.7f * y) + phase);
             if (texture == Texture::noisy)
                 v = (generator() % 4 == 0 ? 1 : uniform()) * (generator() % 2 ? 1.0f : -1.0f);
@@ -133,7 +133,7 @@ TEST(Storages, BoundsHoldAndAreTight) {
                 worst[storage.name] = std::max(worst[storage.name], share);
             }
         }
-    // Not stated much larger than it is.
+    // Check that the bound is not stated much too large.
     for (const Storage& storage : storages()) {
         if (storage.bound.relative == 0) {
             EXPECT_EQ(worst[storage.name], 0) << storage.name;
@@ -144,7 +144,7 @@ TEST(Storages, BoundsHoldAndAreTight) {
 }
 
 TEST(Storages, SingleTexelsHoldTheirBoundsToo) {
-    // As a probe, or a comparison, stores them: what texels share costs nothing, for there is only one.
+    // A single texel, as for a probe or a comparison: sharing between texels costs nothing.
     for (const auto& [name, traits] : all_traits())
         for (const Storage& storage : storages()) {
             if (!suits(storage, traits)) continue;
@@ -198,7 +198,7 @@ TEST(Storages, OneAfterTheOtherIsTheSame) {
             };
             EXPECT_TRUE(pack_each(layout, page.view(), same));
             EXPECT_EQ(i, together.size());
-            // The first error ends it.
+            // The first error ends the packing.
             i = 0;
             const auto ended = [&](const auto&, const auto&) -> Status { return ++i, Error{"full"}; };
             EXPECT_FALSE(pack_each(layout, page.view(), ended));
@@ -207,8 +207,8 @@ TEST(Storages, OneAfterTheOtherIsTheSame) {
 }
 
 TEST(Storages, RowsArePackedAsIfAlone) {
-    // Eight rows, which no block and no sub-sampled texel crosses, are the same bytes on their own as in a page of many
-    // strips; but where the page's largest value decides by what it is divided.
+    // Eight rows, which no block and no sub-sampled texel crosses, give the same bytes alone as in a page of many
+    // strips, unless the page's largest value determines the scale.
     for (const auto& [name, traits] : all_traits())
         for (const Storage& storage : storages()) {
             if (!suits(storage, traits) || traits.count > 4) continue;
@@ -351,8 +351,8 @@ TEST(Storages, OnesThatDoNotSuitAreErrorsThatSayWhatDoes) {
 }
 
 TEST(LeadBounds, HoldForAnyLightThatIsNotNegative) {
-    // Coefficients of single lights from all sides, the extreme points of all lights, and of pairs of them, since not
-    // all coefficients are linear.
+    // Coefficients of single lights from all directions, which are the extreme points of all lights, and of pairs of
+    // lights, because not all coefficients are linear.
     for (const auto& name : basis_names()) {
         const auto basis = make_basis(name).value();
         const auto bounds = basis->lead_bounds();
@@ -376,7 +376,7 @@ TEST(LeadBounds, HoldForAnyLightThatIsNotNegative) {
                 largest[k] = std::max(largest[k], std::abs(c[k].g) / c[0].g);
             }
         }
-        // Where a bound is wide, resolution is lost.
+        // A bound that is too wide wastes resolution.
         for (std::size_t k = 0; k < bounds.size(); ++k) EXPECT_GE(largest[k], 0.5f * bounds[k]) << k;
     }
 }

@@ -1,4 +1,5 @@
-// Radiance pictures: every scheme and orientation decodes to the same radiances, and damage is told, never guessed at.
+// Tests Radiance pictures: every scheme and orientation decodes to the same radiance, and damage is reported, never
+// repaired by guessing.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// docs/bases.md is what the program writes.
+// Tests that docs/bases.md equals what the program writes.
 #include "measure/bases_document.h"
 
 #include <gtest/gtest.h>

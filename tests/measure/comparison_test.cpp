@@ -1,4 +1,5 @@
-// The comparison's figures equal independent ones, do not depend on threads, and survive being written and read.
+// Tests that the comparison's figures equal independently computed ones, do not depend on threads, and survive writing
+// and reading.
 #include "measure/comparison.h"
 
 #include <gtest/gtest.h>
@@ -48,7 +49,7 @@ TEST(Comparison, HarmonicsOnEnnisEqualThePeers) {
     }
 }
 
-/// The report without the times that it took.
+/// Returns the report without its timings.
 json timeless(const Comparison& comparison) {
     json report = to_json(comparison, {"test", comparison.grid, {}, 0});
     for (json& m : report["methods"]) {
@@ -133,7 +134,7 @@ TEST(Comparison, BlackEnvironmentGivesZeros) {
         EXPECT_EQ(m.irradiance_over_pi.rms, 0) << m.name.str();
         EXPECT_EQ(m.irradiance_over_pi.smape, 0) << m.name.str();
     }
-    // What is not finite would be written as null.
+    // Non-finite numbers would be written as null.
     const json report = timeless(result);
     for (const json& m : report["methods"])
         for (const auto& [key, value] : m.items()) EXPECT_FALSE(value.is_null()) << key;
@@ -174,7 +175,7 @@ std::vector<const Storage*> all_storages() {
 }
 
 TEST(StoredCoefficients, KeepEveryStoragesBound) {
-    // Coefficients of both signs and of one, of every basis; how they are read as irradiance makes no difference.
+    // Coefficients of both signs and of one sign, for every basis; the evaluator makes no difference.
     std::vector<CodecName> codecs;
     for (const CodecName& name : all_codecs())
         if ((name.encoder == "moments" || name.encoder == "joint" || name.encoder == "nnls") &&

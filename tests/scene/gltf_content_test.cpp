@@ -1,6 +1,7 @@
 // glTF: valid files that other readers misread, and what exporters really write.
 #include <filesystem>
 
+#include "data.h"
 #include "gltf_reading.h"
 #include "scene/check_scene.h"
 #include "scene/world.h"
@@ -366,7 +367,7 @@ TEST(GltfMaterials, SamplersChooseTheFilter) {
 
 /// The files from which these tests come, where they are at hand.
 TEST(GltfCases, SharedFilesAreReadOrRefusedAsTheyShould) {
-    const std::filesystem::path folder = std::filesystem::path(LOBELIA_SHARED_DIR) / "cases";
+    const std::filesystem::path folder = test::cases_folder();
     if (!std::filesystem::is_directory(folder)) GTEST_SKIP() << "no " << folder;
     const auto outcome = [&](const char* name) {
         const auto loaded = read_gltf(folder / name);

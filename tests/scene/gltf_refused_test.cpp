@@ -1,4 +1,5 @@
-// glTF: bad files are refused with a place, and nothing outside of the scene's folder is read.
+// Tests that bad glTF files are refused with the place of the error, and that nothing outside the scene's folder is
+// read.
 #include <unistd.h>
 
 #include <fstream>
@@ -34,7 +35,7 @@ TEST(BadGltf, ContainerIsNamed) {
     EXPECT_TRUE(says(gltf_error(version), "GLB version 1 is not read"));
 }
 
-/// Whatever is cut off, it is an error and nothing worse.
+/// A file cut off anywhere gives an error and nothing worse.
 TEST(BadGltf, EveryTruncationIsRefused) {
     for (const std::string& whole : {rich_file().glb(), rich_file().gltf()})
         for (std::size_t size = 0; size + 1 < whole.size(); size += 1 + size / 64)
@@ -144,7 +145,7 @@ TEST(BadGltf, RequiredExtensionsNameTheRemedy) {
     EXPECT_EQ(required("KHR_mesh_quantization"), "read without an error");
 }
 
-/// Compressed without being required to be read: plain data is taken where there is any.
+/// The compression extension is used but not required: the reader takes the uncompressed data if present.
 TEST(BadGltf, CompressedDataWithoutAFallbackNamesTheRemedy) {
     GltfFile file = square_file();
     file.root["meshes"][0]["primitives"][0]["extensions"]["KHR_draco_mesh_compression"] = {{"bufferView", 0}};

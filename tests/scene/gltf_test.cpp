@@ -1,4 +1,4 @@
-// glTF: what is written is read back; every kind of content is read as it should be.
+// Tests glTF: a written scene reads back equal, and every kind of content is read correctly.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -41,7 +41,7 @@ TEST(RoundTrip, EmbeddedScenes) {
     }
 }
 
-/// A scene with a bit of everything that the model has; all else random.
+/// A scene that uses every part of the model, with random values.
 Scene random_scene(std::uint32_t seed) {
     std::mt19937 generator(seed);
     const auto number = [&] { return static_cast<float>(generator() % 4096) / 4096; };
@@ -188,7 +188,7 @@ TEST(Gltf, SquareIsReadAsItIs) {
     EXPECT_EQ(scene.objects[0].name, "square node");
 }
 
-/// Integers, normalised or not, give the numbers that they stand for.
+/// Integers, normalised or not, are converted to the right numbers.
 template <class T>
 void expect_integers(std::vector<T> stored, bool normalized, std::vector<Vec3> expected) {
     GltfFile file = square_file();
@@ -224,7 +224,7 @@ TEST(Gltf, EveryIndexType) {
     EXPECT_EQ(with(std::uint32_t{}), expected);
 }
 
-/// Strips and fans keep their fronts in front.
+/// Strips and fans keep their front faces.
 TEST(Gltf, StripsAndFansFaceForward) {
     const auto normals = [](int mode, const std::vector<float>& positions) {
         GltfFile file = square_file();

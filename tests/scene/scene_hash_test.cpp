@@ -1,4 +1,4 @@
-// The scene's hash: the same everywhere and always, another for every change.
+// Tests the scene hash: the same on every machine, and different for every change.
 #include "scene/scene_hash.h"
 
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 namespace lobelia {
 namespace {
 
-/// Something in every field.
+/// A scene with a value in every field.
 Scene full_scene() {
     Scene s;
     s.name = "scene";
@@ -101,7 +101,7 @@ TEST(SceneHash, EveryChangeGivesAnother) {
 }
 
 TEST(SceneHash, NeverChangesForTheSameScene) {
-    // Bakes and checkpoints hold such numbers: a change here makes them strangers to their scenes.
+    // Bakes and checkpoints store this hash: if it changes here, they no longer match their scenes.
     EXPECT_EQ(scene_hash(Scene{}), 17846105203780815389u);
     EXPECT_EQ(scene_hash(full_scene()), 1078977479924493605u);
 }

@@ -9,4 +9,6 @@ std::filesystem::path data_folder() {
     return folder && *folder ? folder : LOBELIA_DEFAULT_DATA;
 }
 
+std::filesystem::path cases_folder() { return data_folder().parent_path() / "cases"; }
+
 }  // namespace lobelia::test

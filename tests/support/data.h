@@ -1,4 +1,4 @@
-// Where the tests find environments that do not come with the project.
+// Where the tests find environments and files that do not come with the project.
 #pragma once
 
 #include <filesystem>
@@ -7,5 +7,7 @@ namespace lobelia::test {
 
 /// The folder that the environment variable LOBELIA_DATA names, or else ../shared/data beside the checkout.
 [[nodiscard]] std::filesystem::path data_folder();
+/// The folder "cases" beside that one: small inputs that once failed.
+[[nodiscard]] std::filesystem::path cases_folder();
 
 }  // namespace lobelia::test

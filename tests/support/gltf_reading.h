@@ -12,7 +12,7 @@ inline Result<LoadedScene> read_gltf_text(const std::string& bytes, const GltfRe
     return read_gltf(std::as_bytes(std::span(bytes)), "test.glb", {}, options);
 }
 
-/// The scene, or a failed test.
+/// Returns the scene, or fails the test.
 inline Scene scene_of_gltf(const GltfFile& file, const GltfReadOptions& options = {}) {
     auto text = read_gltf_text(file.gltf(), options), binary = read_gltf_text(file.glb(), options);
     EXPECT_TRUE(text) << text.error().message;

@@ -1,4 +1,4 @@
-// What tests of pages share: pictures decoded again, and what every page must hold to.
+// Shared by tests of reports: decodes pictures, and checks what every report must satisfy.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -45,7 +45,7 @@ inline std::vector<double> values_of(const Picture& picture) {
     return values;
 }
 
-/// What stands between `<script ... id="name">` and the first thing that a browser would take for its end.
+/// Returns the text between `<script ... id="name">` and the first sequence that a browser takes for its end.
 inline std::string script_element(const std::string& html, const std::string& name) {
     const std::size_t begin = html.find('>', html.find("id=\"" + name + "\"")) + 1;
     return html.substr(begin, html.find("</script", begin) - begin);
@@ -59,7 +59,7 @@ inline void expect_loads_nothing(const std::string& html) {
     EXPECT_NE(html.find("default-src 'none'"), std::string::npos);
 }
 
-/// Marks are lower-case names, perhaps of files.
+/// Placeholders are lower-case names, or names of files.
 inline void expect_filled(const std::string& html) {
     std::smatch mark;
     EXPECT_FALSE(std::regex_search(html, mark, std::regex(R"(\{\{[a-z_/]+(\.[a-z]+)?\}\})"))) << mark.str();

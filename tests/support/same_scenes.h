@@ -1,4 +1,4 @@
-// Whether two scenes are the same, but for what a file rounds.
+// Compares two scenes, except for rounding by the file format.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Small scenes that several tests of the baker share.
+// Small scenes shared by tests of the bake.
 #pragma once
 
 #include "scene/world.h"
@@ -32,7 +32,7 @@ inline Mesh flat_triangles(const std::vector<std::array<Vec2, 3>>& triangles) {
     return mesh;
 }
 
-/// Each mesh as an object in its own place, all of one white material.
+/// A scene with each mesh as an object of its own, all of one white material.
 inline Scene scene_of(std::vector<Mesh> meshes) {
     Scene scene;
     scene.materials.emplace_back();

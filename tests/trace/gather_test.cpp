@@ -1,5 +1,5 @@
-// Gathering: samples say the same as the irradiance beside them, layouts are as stated, and no bit depends on how the
-// work is divided.
+// Tests gathering: samples agree with the irradiance beside them, layouts are as documented, and no bit depends on how
+// the work is divided.
 #include "bake/gather/gather.h"
 
 #include <gtest/gtest.h>
@@ -144,7 +144,7 @@ TEST_F(Gathering, TheFrameTurnsDirectionsAlone) {
 }
 
 TEST_F(Gathering, SamplesTakeTurnsBetweenPositions) {
-    // One position sees the lamp's light, the other lies in a block.
+    // One position receives the lamp's light, the other lies inside a block.
     const std::array<Vec3, 2> places{Vec3{0.1f, 0.01f, 0.1f}, {1, 0.3f, 0}};
     Receiver r = receiver(Domain::hemisphere, 1);
     std::copy(places.begin(), places.end(), r.positions.begin());
@@ -155,7 +155,7 @@ TEST_F(Gathering, SamplesTakeTurnsBetweenPositions) {
 }
 
 TEST_F(Gathering, AimingMakesLightSourcesQuiet) {
-    // The standard error with light sources aimed at is far below that of meeting them by chance.
+    // The standard error with shadow rays is far below that without them.
     scene_.environment.reset();
     scene_.lights.clear();
     const PathTracer aiming(scene_, world_, {.bounces = 0}),

@@ -1,4 +1,4 @@
-// Light sources: samples agree with densities and inverses; the choice of a source leaves none out.
+// Tests light sources: samples agree with pdfs and inverses, and every source can be chosen.
 #include "trace/light/light.h"
 
 #include <gtest/gtest.h>
@@ -45,7 +45,7 @@ TEST(EnvironmentTable, SampleAgreesWithPdfAndRadiance) {
         const EnvironmentSample s = light.sample(pair(1, i, 0, 1)), looked_up = light.at(s.direction);
         agree += s.pdf == looked_up.pdf && s.radiance == looked_up.radiance ? 1 : 0;
     }
-    // All but those that rounding puts into the next texel.
+    // All except directions that rounding moves into the next texel.
     EXPECT_GT(agree, 4080);
 }
 
@@ -146,19 +146,19 @@ TEST_F(ManyLights, SampledSkyHasTheDensityThatIsStated) {
     EXPECT_GT(compared, 500u);
 }
 
-/// Irradiance at a vantage without occlusion, summed over the sources one by one.
+/// Irradiance at a shading point without occlusion, summed over the sources one by one.
 double unshadowed(const Scene& scene, const World& world, Vec3 at, Vec3 normal) {
     double sum = k_pi * 0.1;  // the sky
     for (const PunctualLight& light : scene.lights) {
         if (light.kind == PunctualLight::Kind::directional) {
-            // The cosine's mean over a disc that the horizon does not cut is that to its centre.
+            // The mean cosine over a disc above the horizon equals the cosine to its centre.
             sum += static_cast<double>(light.intensity.g) * std::max(0.0f, -dot(light.direction, normal));
         } else {
             const Vec3 to = light.position - at;
             sum += static_cast<double>(light.intensity.g * std::max(0.0f, dot(normalize(to), normal)) / dot(to, to));
         }
     }
-    // Triangles by a fine grid of their centroids.
+    // Integrate triangles over a fine grid of centroids.
     constexpr int n = 64;
     for (std::size_t t = 0; t < world.triangles.size(); ++t) {
         const auto& [i, j, k] = world.triangles[t];

@@ -1,4 +1,5 @@
-// Reflection: samples agree with densities, values and each other; no light is made; textures are read where they are.
+// Tests reflection: samples agree with pdfs and values, no energy is created, textures are looked up at the right
+// place.
 #include "trace/material.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +13,7 @@
 namespace lobelia {
 namespace {
 
-/// Materials from matt to nearly mirrors.
+/// Materials from matt to nearly specular.
 std::vector<Reflectance> reflectances() {
     std::vector<Reflectance> result{make_reflectance(test::matte({0.2f, 0.5f, 0.8f}), {0.2f, 0.5f, 0.8f}, 0, 1)};
     Material m;
@@ -62,7 +63,7 @@ TEST(Reflection, SamplesFollowPdf) {
                     expected[y / fine * columns + x / fine] +=
                         count * share * static_cast<double>(reflect(s, wo, around_z(z, turn)).pdf);
                 }
-            // The rest are directions below the horizon.
+            // The remaining directions lie below the horizon.
             expected.back() = count;
             for (std::size_t i = 0; i + 1 < expected.size(); ++i) expected.back() -= expected[i];
 
@@ -82,7 +83,7 @@ TEST(Reflection, SamplesFollowPdf) {
                        std::min(static_cast<std::size_t>(turn * columns), columns - 1)];
             }
 
-            // Cells that hold too few are judged together.
+            // Merge cells with too few samples.
             double chi_square = 0, few_expected = 0, few_hits = 0;
             std::size_t cells = 0;
             const auto judge = [&](double h, double e) {
@@ -106,7 +107,7 @@ TEST(Reflection, SamplesFollowPdf) {
 TEST(Reflection, DensityIntegratesToAtMostOne) {
     for (const Reflectance& s : reflectances())
         for (const Vec3 wo : k_views) {
-            // By importance: the mean of 1 over the sampled share is the integral of the density.
+            // Importance sampling: the mean of 1 over the sampled share is the integral of the pdf.
             double landed = 0;
             for (std::uint32_t i = 0; i < 4096; ++i)
                 landed += scatter(s, wo, point_of(i), choice_of(i)).pdf > 0 ? 1 : 0;
@@ -116,7 +117,8 @@ TEST(Reflection, DensityIntegratesToAtMostOne) {
 }
 
 TEST(Reflection, LosesLightInADiffuseField) {
-    // Seen from one side glTF's model may reflect more than arrives; over all views, cosine-weighted, it does not.
+    // For a single view glTF's model may reflect more than it receives; the cosine-weighted mean over all views does
+    // not.
     for (const Reflectance& s : reflectances()) {
         test::Estimate albedo;
         for (std::uint32_t i = 0; i < 16384; ++i)

@@ -1,5 +1,5 @@
-// Light transport against the truth: furnaces, analytic scenes, switches that may not change the mean, repeatability.
-// Monte Carlo tests have fixed seeds; each states its limit in standard errors.
+// Tests light transport against known answers: furnaces, analytic scenes, switches that must not change the mean,
+// repeatability. Monte Carlo tests have fixed seeds; each states its limit in standard errors.
 #include "trace/path_tracer.h"
 
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ Scene furnace(float rho, const Transform& world_from_box = {}) {
 }
 
 TEST(PathTracer, WhiteFurnace) {
-    // Le / (1 - rho) everywhere, within 3 standard errors; what comes after so many bounces is a millionth at most.
+    // Le / (1 - rho) everywhere, within 3 standard errors; later bounces contribute a millionth at most.
     for (const float rho : {0.2f, 0.5f, 0.8f})
         for (const Switch roulette : {Switch::on, Switch::off})
             for (const Switch next_event : {Switch::on, Switch::off}) {
@@ -45,7 +45,7 @@ TEST(PathTracer, WhiteFurnace) {
 }
 
 TEST(PathTracer, FurnaceOfEveryTwoSidedAndSmoothSurface) {
-    // A smooth sphere and double-sided sheets in the box shine and reflect likewise: the light stays the same.
+    // A smooth sphere and double-sided sheets in the box emit and reflect like its walls: the radiance stays the same.
     Scene scene = furnace(0.5f);
     scene.materials.push_back(scene.materials[0]);
     scene.materials[1].double_sided = true;
@@ -72,7 +72,8 @@ TEST(PathTracer, FurnaceAtAnyScaleAndPlace) {
             const PathTracer tracer(scene, world, {.bounces = 40});
             for (const Vec3 local : {Vec3{0.2f, -1, 0.3f}, Vec3{-0.98f, -1, 0.97f}}) {
                 const auto found = measure(tracer, rotate(turn, local) * scale + centre, rotate(turn, {0, 1, 0}));
-                // 3 standard errors, and the thousandth that corners lose to lifted rays far from the origin.
+                // 3 standard errors, plus the thousandth that corners lose because rays start off the surface, far from
+                // the origin.
                 EXPECT_NEAR(found.channels[0].mean(), 2 * k_pi,
                             3 * found.channels[0].standard_error() + 1e-3 * 2 * k_pi)
                     << scale << ' ' << distance;
@@ -94,7 +95,7 @@ TEST(PathTracer, NoRayLeavesAClosedScene) {
     for (std::size_t i = 0; i < directions.size(); ++i)
         rays.push_back({Vec3{40.5f, -69, 29}, direction_at(directions, i), INFINITY});
     const std::size_t random = rays.size();
-    // Towards the middles of edges, then towards vertices.
+    // Aim at the middles of edges, then at vertices.
     for (const auto& t : world.triangles)
         for (std::size_t k = 0; k < 3; ++k)
             rays.push_back(
@@ -111,11 +112,11 @@ TEST(PathTracer, NoRayLeavesAClosedScene) {
     }
     EXPECT_EQ(misses[0], 0u);
     EXPECT_EQ(misses[1], 0u);
-    // Embree lets one in hundreds of rays through that aim at a vertex exactly; by chance none does.
+    // Embree misses one in hundreds of rays that aim exactly at a vertex; random rays never do.
     EXPECT_LT(misses[2], world.positions.size() / 100);
 }
 
-/// A floor at y = 0 that reflects `rho`, by default so large that it counts as endless.
+/// A floor at y = 0 with reflectance `rho`, by default so large that it counts as infinite.
 Scene plane_scene(float rho, float half = 1e4f) {
     Scene scene;
     scene.materials = {test::matte({rho, rho, rho})};
@@ -133,11 +134,11 @@ TEST(PathTracer, PlaneUnderConstantSky) {
         const PathTracer tracer(scene, world, {.environment_table = table});
         const auto up = measure(tracer, {0.3f, 0, 0.1f}, {0, 1, 0});
         for (std::size_t k = 0; k < 3; ++k) expect_near(up.channels[k], (static_cast<double>(k) + 1) * k_pi, 4);
-        // From a wall: half sky, half floor; the floor shines with rho times the sky.
+        // At a wall: half sky, half floor; the floor reflects rho times the sky.
         const auto wall = measure(tracer, {0, 1, 0}, {1, 0, 0});
         for (std::size_t k = 0; k < 3; ++k)
             expect_near(wall.channels[k], (static_cast<double>(k) + 1) * k_pi * (0.5 + 0.5 * 0.6), 4);
-        // All around, at a probe: the same mean, times pi.
+        // At a probe, over all directions: the same mean, times pi.
         const auto probe = measure(tracer, {0, 1, 0}, {0, 1, 0}, {.domain = Domain::sphere});
         for (std::size_t k = 0; k < 3; ++k)
             expect_near(probe.channels[k], (static_cast<double>(k) + 1) * k_pi * (0.5 + 0.5 * 0.6), 4);
@@ -168,7 +169,7 @@ TEST(PathTracer, SphereLightOverPlane) {
             for (std::size_t k = 0; k < 3; ++k) {
                 const double truth = std::array{10, 5, 1}[k] * k_pi * radius2 / d2 * cosine;
                 EXPECT_NEAR(found.channels[k].mean(), truth, 4 * found.channels[k].standard_error() + 1e-3 * truth);
-                // Aimed at, it is found at once.
+                // Shadow rays find it at once.
                 if (next_event == Switch::on) {
                     EXPECT_LT(found.channels[k].standard_error(), 3e-3 * truth);
                 }
@@ -231,15 +232,15 @@ TEST(PathTracer, PointAndSpotLightsFollowTheInverseSquare) {
     EXPECT_EQ(found_at({1.095f, 0, 0}).mean(), 0);
 }
 
-/// Irradiance at p, normal (0, 1, 0), of a square light of half width h at height d above p that shines down
-/// with radiance 1: Lambert's formula for a quarter, four times.
+/// Irradiance at p with normal (0, 1, 0) from a square light of half width h at height d above p, which emits radiance
+/// 1 downwards: four times Lambert's formula for a quarter.
 double square_light(double h, double d) {
     const double r = std::hypot(h, d);
     return 4 * 0.5 * 2 * (h / r) * std::atan(h / r);
 }
 
 TEST(PathTracer, SquareLightOfAnySizeIsExact) {
-    // Tiny ones must be aimed at, huge ones are better met by chance; weighing both keeps the error small.
+    // Tiny lights need shadow rays, huge ones are better hit by chance; MIS weights keep the error small for both.
     for (const float half : {0.001f, 0.1f, 1.0f, 10.0f, 100.0f})
         for (const auto choice : {DirectionChoice::uniform, DirectionChoice::mixture}) {
             Scene scene = plane_scene(0, 10);
@@ -256,7 +257,8 @@ TEST(PathTracer, SquareLightOfAnySizeIsExact) {
         }
 }
 
-/// A room with everything that has a size: a lamp, a window to an uneven sky with a broad sun, gloss, and a veil.
+/// A room with every extended light: a lamp, a window to an uneven sky with a broad sun; with glossy and transparent
+/// surfaces.
 Scene room() {
     Scene scene;
     scene.materials = {test::matte({0.7f, 0.6f, 0.5f}), test::matte({0.5f, 0.5f, 0.5f}, {4, 3, 2}), Material{},
@@ -305,7 +307,7 @@ TEST(PathTracer, SwitchesAgreeInTheMean) {
             for (const auto choice : {DirectionChoice::uniform, DirectionChoice::mixture}) {
                 const PathTracer other(scene, world, others[i]);
                 const auto found = measure(other, p, {0, 1, 0}, {.directions = choice, .samples = 512});
-                // 48 comparisons, of 1e-3 in all: 4.3 standard errors.
+                // 48 comparisons with a significance of 1e-3 for all together: 4.3 standard errors.
                 for (std::size_t k = 0; k < 3; ++k)
                     EXPECT_LT(deviation(found.channels[k], expected.channels[k]), 4.3) << i << ' ' << k;
             }
@@ -366,7 +368,7 @@ TEST(PathTracer, SameBitsWhateverTheBatch) {
     }
 }
 
-/// A sheet at y = 1 over the floor, a point light at y = 2 and a sky: what of it comes through.
+/// A sheet at y = 1 over the floor, with a point light at y = 2 and a sky: measures how much light it transmits.
 Scene sheet_scene(const Material& material, Vec3 x, Vec3 y) {
     Scene scene = plane_scene(0, 100);
     scene.materials.push_back(material);
@@ -382,7 +384,7 @@ Scene sheet_scene(const Material& material, Vec3 x, Vec3 y) {
     return scene;
 }
 
-/// Irradiance under the sheet over that without it, from a source aimed at and from one met by chance.
+/// Irradiance with the sheet over irradiance without it, for a source sampled by shadow rays and for one hit by chance.
 double transmitted(const Scene& scene, Switch next_event) {
     const World world = make_world(scene);
     const PathTracer tracer(scene, world, {.next_event = next_event});
@@ -409,7 +411,7 @@ TEST(PathTracer, TransparencyLetsItsShareThrough) {
 }
 
 TEST(PathTracer, OneSidedSurfacesStopLightFromTheFrontOnly) {
-    // What the floor reflects of the point light, seen from between it and the sheet.
+    // Reflected light of the point light on the floor, seen from between floor and sheet.
     const auto radiance = [&](Vec3 x, Vec3 y) {
         Scene scene = sheet_scene(test::matte({}), x, y);
         scene.materials[0] = test::matte({1, 1, 1});
@@ -422,13 +424,13 @@ TEST(PathTracer, OneSidedSurfacesStopLightFromTheFrontOnly) {
         tracer.trace({&start, 1}, {&in, 1}, *scratch);
         return static_cast<double>(in.scattered.g);
     };
-    // The shadow ray comes from below: it meets the front of a sheet that faces down.
+    // The shadow ray comes from below and hits the front of a sheet that faces down.
     EXPECT_EQ(radiance({1, 0, 0}, {0, 0, 1}), 0);
     EXPECT_NEAR(radiance({0, 0, 1}, {1, 0, 0}), 4 * 2 / std::pow(4.1, 1.5) / k_pi, 1e-4);
 }
 
 TEST(PathTracer, CoincidentOneSidedSurfacesAreASolidSheet) {
-    // Leaves are often modelled so: two faces back to back in one place. Neither leaks nor shows a back.
+    // Leaves are often modelled as two faces back to back in one place. They must neither leak nor show a back face.
     Scene scene = furnace(0.5f);
     Mesh leaf;
     test::add_square(leaf, 0, {0, -0.5f, 0}, normalize(Vec3{1, 0.2f, 0}), {0, 0, 1}, 0.5f);

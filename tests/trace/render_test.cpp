@@ -1,4 +1,4 @@
-// Pictures from a camera: what they must be where the light is known, and the same bits at any number of threads.
+// Tests camera pictures: exact where the light is known, and the same bits at any number of threads.
 #include "bake/render/render.h"
 
 #include <gtest/gtest.h>
@@ -64,7 +64,7 @@ struct ConstantBake {
         if (!codec_name.empty()) codec = *make_codec(codec_name);
         std::vector<Rgb> c;
         if (codec) {
-            // Exact for what any of the bases here can hold.
+            // Exact for light that all bases here represent.
             const SphereRule rule = product_rule(codec->basis().domain(), 24);
             Samples samples(rule.weights.size());
             for (std::size_t i = 0; i < samples.size(); ++i)
@@ -115,7 +115,7 @@ TEST(RenderBake, WhiteFurnaceOfDiffuseWalls) {
     const Scene scene = closed_box(glowing(false));
     const World world = make_world(scene);
     const PathTracer tracer(scene, world);
-    // SH hold a constant exactly, in every frame; without a codec there is the irradiance of the paths.
+    // SH represent a constant exactly in every frame; without a codec the picture uses the irradiance of the paths.
     for (const char* codec : {"sh1/moments/convolution", "sh2/projection/convolution", ""})
         for (const bool tangent : {false, true}) {
             const ConstantBake bake(scene, codec, furnace_radiance());
@@ -134,7 +134,8 @@ TEST(RenderBake, HemisphericalLobesGiveTheFurnaceWithinTheirFit) {
 }
 
 TEST(RenderBake, GlossyWallsReflectWhatTheyScatter) {
-    // In a constant radiance L from everywhere, what leaves is what the tracer's own surfaces reflect of it.
+    // In constant radiance L from all directions, the reflected light equals the reflectance of the tracer's surfaces
+    // times L.
     const Scene scene = closed_box(glowing(true));
     const World world = make_world(scene);
     const PathTracer tracer(scene, world);
@@ -162,12 +163,12 @@ TEST(RenderBake, GlossyWallsReflectWhatTheyScatter) {
     }
     const double mean = sum / options.samples;
     const double error = std::sqrt((squares / options.samples - mean * mean) / options.samples);
-    // Five standard errors of independent samples; those of a sequence are closer.
+    // Five standard errors of independent samples; a sequence has less error.
     EXPECT_NEAR(seen.g - k_emission.g, mean, 5 * error);
 }
 
 TEST(RenderBake, ReadsTheTexelsAboutThePoint) {
-    // Irradiance that grows linearly over a square is the same again after bilinear interpolation.
+    // Bilinear interpolation reproduces irradiance that grows linearly over a square.
     Scene scene = test::scene_of({test::parallelogram({-1, -1, -1}, {2, 0, 0}, {0, 2, 0})});
     scene.materials[0].specular = 0;
     ConstantBake bake(scene, "", {0, 0, 0});

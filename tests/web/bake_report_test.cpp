@@ -1,4 +1,4 @@
-// The page of a bake: it loads nothing, no string escapes, pictures hold what the pages hold, figures are right.
+// Tests the report of a bake: it loads nothing, no string escapes, pictures hold the pages' values, figures are right.
 #include "report/bake_report.h"
 
 #include <gtest/gtest.h>
@@ -138,11 +138,11 @@ TEST(BakeReport, LargePagesAreReducedToMeansOfTheirCharts) {
     const auto pictures = pictures_of(html);
     EXPECT_LT(pictures["E 0"]["width"], 64);
     EXPECT_EQ(64 % pictures["E 0"]["width"].get<int>(), 0);
-    // What lies between charts takes no part.
+    // Texels between charts do not count.
     for (const std::uint16_t word : words_of(pictures["E 0"], "half")) EXPECT_EQ(value_of_half(word), 3);
 }
 
-/// Two heights of 2 x 1 probes, constant light of 1, 2, 3 and 4, the last one of no use.
+/// Two heights of 2 x 1 probes with constant light of 1, 2, 3 and 4; the last probe is invalid.
 ProbeSet four_probes(const Codec& codec) {
     ProbeSet probes;
     probes.codec = "sh1/moments/convolution";
@@ -177,7 +177,7 @@ TEST(ProbePlans, SpheresShowWhatTheirProbesHold) {
             EXPECT_NEAR(plan.image.pixels[i].g, static_cast<float>(2 * k + 1 + right), 1e-4f);
             EXPECT_EQ(plan.marks[i], k == 1 && right ? ProbePlan::k_invalid : ProbePlan::k_valid);
         }
-        // Two discs of 0.44 of the spacing.
+        // Two discs with a radius of 0.44 of the spacing.
         const double wanted = 2 * k_pi * std::pow(0.44 * 24, 2);
         EXPECT_NEAR(static_cast<double>(covered), wanted, 0.05 * wanted);
     }
@@ -234,7 +234,7 @@ TEST(RenderViews, ShowEveryCameraFromBothSides) {
     const auto views = render_views(scene, bake.page.light, {}, options);
     ASSERT_TRUE(views);
     ASSERT_EQ(views->size(), scene.cameras.size());
-    // Nothing has a lightmap here, so both are traced alike.
+    // No object has a lightmap here, so both pictures are path-traced.
     EXPECT_EQ(views->front().baked.pixels, views->front().reference.pixels);
     EXPECT_EQ(views->front().camera, scene.cameras.front().name);
     EXPECT_EQ(views->front().reference_samples, 2u);

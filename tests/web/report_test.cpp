@@ -1,5 +1,5 @@
-// The pages of reports and studies: they load nothing, no string escapes from its script element, pictures keep what
-// they hold.
+// Tests the reports of comparisons and studies: they load nothing, no string escapes from its script element, pictures
+// keep their values.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -175,7 +175,7 @@ TEST(StudyPage, HoldsAllTablesAndSeries) {
     EXPECT_EQ(data["plots"][0]["series"][0]["y"], (std::vector<double>{0.5, 0, -1}));
     EXPECT_TRUE(data["plots"][0]["series"][1]["y"][1].is_null());  // not a number
     EXPECT_EQ(data["plots"][0]["x_axis"], "logarithmic");
-    // What is not of the page itself is what to_json() says, as JSON writes it.
+    // All data of the report equals to_json(), written as JSON.
     data.erase("pictures"), data.erase("lobelia");
     EXPECT_EQ(data, nlohmann::json::parse(to_json(study).dump()));
 }
