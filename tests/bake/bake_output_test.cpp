@@ -190,10 +190,20 @@ TEST_F(BakeOutput, DeepNestingIsRefused) {
 }
 
 TEST_F(BakeOutput, PagesWithoutMeaningAreRefused) {
+    // Such values are not written: put pages and probes that hold them into the place of good ones.
     const auto with = [&](const auto& change) {
         Bake bake = some_bake("sh1/moments/convolution");
-        change(bake);
         EXPECT_TRUE(write_bake(path(), bake));
+        const auto manifest = read_manifest(path());
+        change(bake);
+        for (std::size_t p = 0; p < bake.pages.size(); ++p) {
+            auto file = StagedFile::create(path() / manifest->pages[p].file);
+            EXPECT_TRUE(write_page(*file, bake.pages[p], bake.channels(), bake.normals[p]) && file->flush() &&
+                        file->commit());
+        }
+        const std::vector<Rgb>& c = bake.probes->coefficients;
+        test::overwrite(path() / "probes.bin",
+                        std::string(reinterpret_cast<const char*>(c.data()), c.size() * sizeof(Rgb)));
         return message();
     };
     EXPECT_NE(with([](Bake& b) { b.pages[0].planes[5][1 + 2 * 21] = NAN; }).find("channel c1.B, x = 1, y = 2"),
@@ -203,6 +213,18 @@ TEST_F(BakeOutput, PagesWithoutMeaningAreRefused) {
     EXPECT_NE(with([](Bake& b) { b.normals[0][0].x = INFINITY; }).find("channel N.x"), std::string::npos);
     EXPECT_NE(with([](Bake& b) { b.probes->coefficients[5].g = NAN; }).find("coefficient 1 of probe 1"),
               std::string::npos);
+}
+
+TEST_F(BakeOutput, ValuesThatAreNotFiniteAreNotWritten) {
+    const auto refused = [&](const auto& change) {
+        Bake bake = some_bake("sh1/moments/convolution");
+        change(bake);
+        const auto written = write_bake(path(), bake);
+        return !written && !fs::exists(path() / "bake.json");
+    };
+    EXPECT_TRUE(refused([](Bake& b) { b.pages[0].planes[5][1 + 2 * 21] = NAN; }));
+    EXPECT_TRUE(refused([](Bake& b) { b.pages[0].planes[0][0] = INFINITY; }));
+    EXPECT_TRUE(refused([](Bake& b) { b.probes->coefficients[5].g = NAN; }));
 }
 
 TEST_F(BakeOutput, TooManyChartsAreAnErrorAndNothingChanges) {
