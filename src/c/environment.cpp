@@ -52,7 +52,7 @@ lob_status lob_environment_from_pixels(const float* pixels, size_t width, size_t
             if (!(pixels[i] >= 0 && std::isfinite(pixels[i])))
                 return fail(LOB_BAD_INPUT, "lob_environment_from_pixels: pixel " + std::to_string(i / 3) +
                                                " is NaN, infinite or negative");
-        auto environment = std::make_unique<lob_environment>(Image(width, height));
+        std::unique_ptr<lob_environment> environment(new lob_environment{Image(width, height)});
         const auto from = colours(pixels, width * height);
         environment->image.pixels.assign(from.begin(), from.end());
         *out = environment.release();

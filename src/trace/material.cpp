@@ -13,7 +13,6 @@ using ggx::fast::distribution;
 using ggx::fast::lambda;
 using ggx::fast::visible_normal;
 
-constexpr auto k_pi_f = static_cast<float>(k_pi);
 /// Smoother than this counts as this: a mirror's highlight must have a width for light to be aimed into it.
 constexpr float k_least_width = 1e-3f;
 

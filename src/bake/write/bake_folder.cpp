@@ -117,7 +117,8 @@ Result<Bake> read_bake(const fs::path& path) {
     auto manifest = read_manifest(path);
     if (!manifest) return manifest.error();
     const fs::path folder = bake_folder(path);
-    Bake bake{.manifest = *std::move(manifest)};
+    Bake bake;
+    bake.manifest = *std::move(manifest);
     for (const auto& baked : bake.manifest.pages) {
         auto page = read_page(folder / baked.file, bake.channels(), bake.manifest.width, bake.manifest.height);
         if (!page) return page.error();

@@ -27,7 +27,8 @@ Result<LoadedScene> read_baked_scene(const std::filesystem::path& path, const Ma
     if (!scene)
         return Error{fmt::format("{}: holds no copy of its scene \"{}\"; bake it again with a scene that glTF can hold",
                                  path.string(), manifest.scene_name)};
-    LoadedScene loaded{*std::move(scene), {}};
+    LoadedScene loaded;
+    loaded.scene = *std::move(scene);
     if (auto status = set_environment(loaded, source); !status) return status.error();
     return loaded;
 }
