@@ -14,15 +14,15 @@ namespace lobelia {
 
 /// Where a scene comes from, and how it is read.
 struct SceneSource {
-    std::string path;                        ///< a .glb or .gltf file, or the name of an embedded scene
-    std::optional<std::string> environment;  ///< an image file, "sky" or "none"; absent: the scene's own
-    Switch ldr = Switch::off;                ///< accept 8-bit images as environment
-    Switch sanitize = Switch::off;           ///< replace NaN, infinite and negative texels of the environment by 0
-    std::size_t uv_set = 1;                  ///< lightmap UVs are the file's TEXCOORD_<uv_set>
-    Switch photometric = Switch::off;        ///< lights and emission are in lux, candela and nits (179 lm/W)
-    std::optional<double> sun_elevation;     ///< [degrees]; setting one of these three selects the embedded sky
-    std::optional<double> sun_azimuth;       ///< from -z towards +x [degrees]
-    std::optional<double> turbidity;         ///< haze
+    std::string path;                             ///< a .glb or .gltf file, or the name of an embedded scene
+    std::optional<std::string> environment = {};  ///< an image file, "sky" or "none"; absent: the scene's own
+    Switch ldr = Switch::off;                     ///< accept 8-bit images as environment
+    Switch sanitize = Switch::off;                ///< replace NaN, infinite and negative texels of the environment by 0
+    std::size_t uv_set = 1;                       ///< lightmap UVs are the file's TEXCOORD_<uv_set>
+    Switch photometric = Switch::off;             ///< lights and emission are in lux, candela and nits (179 lm/W)
+    std::optional<double> sun_elevation = {};     ///< [degrees]; setting one of these three selects the embedded sky
+    std::optional<double> sun_azimuth = {};       ///< from -z towards +x [degrees]
+    std::optional<double> turbidity = {};         ///< haze
 };
 
 /// A scene that passes check_scene, and the reader's warnings.

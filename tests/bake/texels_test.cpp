@@ -56,8 +56,6 @@ Mesh unbaked(Mesh mesh) {
     return mesh;
 }
 
-bool is_near(Vec3 a, Vec3 b, float tolerance) { return length(a - b) <= tolerance; }
-
 TEST(Texels, LieOnTheSurfaceInTheirTexel) {
     // UVs are the world's x and y, so that positions identify texels.
     const auto hill = [](float x, float y) { return 0.2f * std::sin(5 * x) * std::cos(4 * y); };
