@@ -3,8 +3,8 @@
 #include <cstdint>
 
 #include "check_loaded.h"
-#include "scene/check_scene.h"
 #include "lobelia/gltf.h"
+#include "scene/check_scene.h"
 #include "scene/world.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

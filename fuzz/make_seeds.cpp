@@ -2,16 +2,17 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "bake/write/manifest.h"
 #include "bake/write/probe_files.h"
 #include "bake_files.h"
 #include "gltf_files.h"
 #include "io/write_file.h"
 #include "io/write_image.h"
 #include "io_files.h"
+#include "lobelia/gltf.h"
 #include "lobelia/storage.h"
 #include "picture_files.h"
 #include "scene/embedded.h"
-#include "lobelia/gltf.h"
 
 namespace {
 

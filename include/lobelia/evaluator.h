@@ -22,8 +22,8 @@ class FunctionSet {
     /// rows[i * k_block_size + j] = f_i(direction j), for block.size <= k_block_size directions. `rows` has
     /// size() * k_block_size floats; within a row, entries past block.size up to whole lanes may be overwritten.
     virtual void values(DirectionView block, float* rows) const = 0;
-    /// values[i] = f_i(direction). `values` has room for size() floats rounded up to whole lanes (round_up_to_lanes); those
-    /// past size() may be overwritten. This general form takes a block of one; overrides are quicker.
+    /// values[i] = f_i(direction). `values` has room for size() floats rounded up to whole lanes (round_up_to_lanes);
+    /// those past size() may be overwritten. This general form takes a block of one; overrides are quicker.
     virtual void values_at(Vec3 direction, float* values) const;
 };
 

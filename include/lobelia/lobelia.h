@@ -8,8 +8,8 @@
 //
 // A basis is a short list of functions of a direction, such as twelve spherical Gaussians (spherical_gaussians(12), or
 // "sg12" by name) or the spherical harmonics up to degree 2 (spherical_harmonics(2), "sh2"). An encoder takes samples
-// as they arrive (Accumulator: add, merge, solve) and finds the coefficients with which the sum of those functions comes
-// close to the radiance.
+// as they arrive (Accumulator: add, merge, solve) and finds the coefficients with which the sum of those functions
+// comes close to the radiance.
 //
 // The coefficients, one colour each, are all that has to be stored. From them the basis gives the radiance in a
 // direction, an evaluator the irradiance at a normal, and a specular evaluator (make_specular) the light that a glossy

@@ -37,8 +37,8 @@ Result<CoefficientFile> coefficients_from_text(std::string_view text, const std:
         const JsonPlace list = top.at("coefficients");
         const std::size_t expected = codec->basis().size();
         if (list.is_list() && list.size() != expected)
-            list.refuse(codec->name().basis + " has " + std::to_string(expected) + " coefficients, but the file holds " +
-                        std::to_string(list.size()));
+            list.refuse(codec->name().basis + " has " + std::to_string(expected) +
+                        " coefficients, but the file holds " + std::to_string(list.size()));
         CoefficientFile file{codec->name(), {}};
         for (const JsonPlace& rgb : list.list_of(expected)) {
             const Vec3 c = rgb.vector();

@@ -275,8 +275,8 @@ TEST(BakeFolder, NothingThatIsNotFiniteIsWritten) {
 TEST(Manifest, NamesOfCodecsOpenNoFiles) {
     const test::TestFolder folder("bake-hostile");
     test::overwrite(folder.path() / "lobes.txt", "0 0 1 2\n1 0 0 2\n");
-    for (const std::string file : {(folder.path() / "lobes.txt").string(), std::string("/dev/zero")})
-        for (const std::string prefix : {"sg:", "sgh:"}) {
+    for (const std::string& file : {(folder.path() / "lobes.txt").string(), std::string("/dev/zero")})
+        for (const std::string& prefix : {std::string("sg:"), std::string("sgh:")}) {
             Bake bake = test::some_bake("sh1/moments/convolution");
             std::string text = to_json_text(bake.manifest);
             const std::string name = "sh1/moments/convolution";

@@ -5,8 +5,8 @@
 #include "bake/write/scene_copy.h"
 #include "folders.h"
 #include "io/read_image.h"
-#include "scene/embedded.h"
 #include "lobelia/gltf.h"
+#include "scene/embedded.h"
 
 namespace lobelia {
 namespace {

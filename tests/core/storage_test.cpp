@@ -78,7 +78,7 @@ TEST(SharedExponents, KeepTheirBoundWhereTheLargestComponentIsAboutToDouble) {
 
 /// Coefficients that obey the traits, over many magnitudes, often at the edge of what is allowed.
 LightmapPage random_page(const CoefficientTraits& traits, std::size_t width, std::size_t height, std::uint32_t seed,
-                 Texture texture) {
+                         Texture texture) {
     std::mt19937 generator(seed);
     const auto uniform = [&] { return static_cast<float>(generator()) * 0x1p-32f; };
     LightmapPage page(width, height, traits.count);

@@ -177,7 +177,7 @@ GltfFile skinned_square() {
         file.accessor(std::vector<float>{1, 0, 0, 0, 1, 0, 0, 0, 0.5f, 0.5f, 0, 0, 1, 0, 0, 0}, 4);
     // Bind matrices undo where the joints stood: the first at z = 1.
     std::vector<float> bind(32, 0.0f);
-    for (const int k : {0, 5, 10, 15}) bind[static_cast<std::size_t>(k)] = bind[static_cast<std::size_t>(16 + k)] = 1;
+    for (const std::size_t k : {0, 5, 10, 15}) bind[k] = bind[16 + k] = 1;
     bind[14] = -1;
     const auto matrices = file.accessor(bind, 4);
     file.root["accessors"][matrices]["type"] = "MAT4";

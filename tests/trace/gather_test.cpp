@@ -5,9 +5,9 @@
 #include <gtest/gtest.h>
 
 #include "bake/place/texels.h"
+#include "core/sample/sequence.h"
 #include "measure.h"
 #include "support.h"
-#include "core/sample/sequence.h"
 
 namespace lobelia {
 namespace {

@@ -54,7 +54,10 @@ class PageDenoiser {
     std::span<const Vec3> position_, normal_;
     const DenoiseOptions& options_;
     std::array<std::vector<float>, 3> brightness_;  ///< by channel
-    std::vector<float> spacing_;                    ///< of neighbours in the world, squared
+    /// Irradiance over brightness: it takes the same steps as the coefficients, so that it stays what they give at the
+    /// normal. The irradiance itself is filtered, too, for the weights.
+    std::array<std::vector<float>, 3> irradiance_ratio_;
+    std::vector<float> spacing_;  ///< of neighbours in the world, squared
     AtrousWeights weights_;
     tbb::enumerable_thread_specific<std::vector<float>> work_;
 };
@@ -88,6 +91,7 @@ void PageDenoiser::run(std::span<const double> integrals, double domain_solid_an
 
 void PageDenoiser::divide(std::span<const double> integrals, double domain_solid_angle) {
     for (auto& plane : brightness_) plane.assign(page_.size(), 0);
+    for (auto& plane : irradiance_ratio_) plane.assign(page_.size(), NAN);
     for_each_usable([&](std::size_t i, std::size_t, std::size_t) {
         for (std::size_t k = 0; k < 3; ++k) {
             double mean = 0, size = 0;
@@ -98,6 +102,7 @@ void PageDenoiser::divide(std::span<const double> integrals, double domain_solid
             }
             const auto brightness = static_cast<float>(std::max(mean, k_least_share * size));
             brightness_[k][i] = brightness;
+            if (brightness > 0) irradiance_ratio_[k][i] = page_.planes[channels_.irradiance(k)][i] / brightness;
             for (std::size_t c = 0; c < channels_.coefficients; ++c) {
                 float& value = page_.planes[channels_.coefficient(c, k)][i];
                 value = brightness > 0 ? value / brightness : NAN;
@@ -108,11 +113,14 @@ void PageDenoiser::divide(std::span<const double> integrals, double domain_solid
 
 void PageDenoiser::multiply() {
     for_each_usable([&](std::size_t i, std::size_t, std::size_t) {
-        for (std::size_t k = 0; k < 3; ++k)
+        for (std::size_t k = 0; k < 3; ++k) {
             for (std::size_t c = 0; c < channels_.coefficients; ++c) {
                 float& value = page_.planes[channels_.coefficient(c, k)][i];
                 value = std::isnan(value) ? 0 : value * brightness_[k][i];
             }
+            const float ratio = irradiance_ratio_[k][i];
+            if (!std::isnan(ratio)) page_.planes[channels_.irradiance(k)][i] = ratio * brightness_[k][i];
+        }
     });
 }
 
@@ -189,15 +197,18 @@ float PageDenoiser::weight(std::size_t i, std::size_t j) const {
 }
 
 void PageDenoiser::average_all() {
-    // Ratios, irradiance, error; then the brightness.
+    // Ratios, irradiance, error; then the brightness, and the ratios of the irradiance.
     const std::size_t channels = channels_.count();
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, channels + 3, 1), [&](const auto& range) {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, channels + 6, 1), [&](const auto& range) {
         std::vector<float>& work = work_.local();
         for (std::size_t c = range.begin(); c != range.end(); ++c) {
-            AtrousMean mean = c < 3 * channels_.coefficients ? AtrousMean::known_values : AtrousMean::values;
+            const bool ratio = c < 3 * channels_.coefficients || c >= channels + 3;
+            AtrousMean mean = ratio ? AtrousMean::known_values : AtrousMean::values;
             if (c == channels_.error())
                 mean = weights_.step == 1 ? AtrousMean::first_variances : AtrousMean::later_variances;
-            std::vector<float>& plane = c < channels ? page_.planes[c] : brightness_[c - channels];
+            std::vector<float>& plane = c < channels       ? page_.planes[c]
+                                        : c < channels + 3 ? brightness_[c - channels]
+                                                           : irradiance_ratio_[c - channels - 3];
             work.resize(page_.size());
             average(weights_, mean, plane, work);
             plane.swap(work);

@@ -129,7 +129,7 @@ SeamDifferences find_differences(const Atlas& atlas, std::span<const SeamPoint> 
     SeamDifferences result;
     const auto& charts = atlas.chart_of_triangle();
     for (const auto& [seam, s, weight] : points) {
-        const auto append = [&](const SeamSide& side, double scale) {
+        const auto append = [&, s = s](const SeamSide& side, double scale) {
             return footprints.append(atlas.page_of(side.triangle), charts[side.triangle],
                                      side.ends[0] * (1 - s) + side.ends[1] * s, static_cast<float>(scale),
                                      result.shares);

@@ -53,7 +53,7 @@ class JsonFieldWriter {
 
 class JsonFieldReader {
   public:
-    explicit JsonFieldReader(JsonPlace place) : place_(std::move(place)) {}
+    explicit JsonFieldReader(JsonPlace place) : place_(place) {}
 
     template <class T>
     void whole(const char* name, T& value, std::uint64_t least, std::uint64_t most) {

@@ -56,7 +56,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }
 
 /// A name in quotation marks. Long names hold lists of lobes: their beginning is enough for a message.
-std::string quoted(std::string_view name) {
+std::string in_quotes(std::string_view name) {
     constexpr std::size_t most = 60;
     return "\"" + std::string(name.substr(0, most)) + (name.size() > most ? "..." : "") + "\"";
 }
@@ -143,25 +143,25 @@ Result<BasisPtr> make_basis(std::string_view name) {
         auto basis = entry.make(name);
         if (!basis || *basis) return basis;
     }
-    return Error{"unknown basis " + quoted(name) + nearest_names(name, basis_names())};
+    return Error{"unknown basis " + in_quotes(name) + nearest_names(name, basis_names())};
 }
 
 Result<EncoderPtr> make_encoder(std::string_view name, BasisPtr basis) {
     for (const EncoderEntry& entry : encoder_entries()) {
         if (entry.name != name) continue;
         if (!is_compatible(entry, *basis))
-            return Error{"encoder " + quoted(name) + " needs a basis of non-negative functions, which " +
+            return Error{"encoder " + in_quotes(name) + " needs a basis of non-negative functions, which " +
                          basis->name() + " is not"};
         if (basis->linear()) return entry.make(as_linear(basis));
         const std::shared_ptr<const FittedBasis> fitted(basis, basis->fitted());
         return make_fitted_encoder(fitted, entry.make(fitted->accumulated()));
     }
-    return Error{"unknown encoder " + quoted(name) + nearest_names(name, encoder_names())};
+    return Error{"unknown encoder " + in_quotes(name) + nearest_names(name, encoder_names())};
 }
 
 Result<std::shared_ptr<const Evaluator>> make_evaluator(std::string_view name, const Basis& basis) {
     if (auto evaluator = basis.evaluator(name)) return evaluator;
-    return Error{"unknown evaluator " + quoted(name) + " for basis " + basis.name() +
+    return Error{"unknown evaluator " + in_quotes(name) + " for basis " + basis.name() +
                  nearest_names(name, basis.evaluator_names())};
 }
 
@@ -174,7 +174,7 @@ std::vector<std::string> specular_names(const Basis& basis) {
 Result<std::shared_ptr<const SpecularEvaluator>> make_specular(std::string_view name, BasisPtr basis) {
     if (name == "sampled") return make_sampled_specular(std::move(basis));
     if (auto evaluator = basis->specular(name)) return evaluator;
-    return Error{"unknown specular evaluator " + quoted(name) + " for basis " + basis->name() +
+    return Error{"unknown specular evaluator " + in_quotes(name) + " for basis " + basis->name() +
                  nearest_names(name, specular_names(*basis))};
 }
 
@@ -186,7 +186,7 @@ Result<CodecName> parse_codec_name(std::string_view name) {
     if (first == none) {
         std::vector<std::string> known;
         for (const auto& codec : all_codecs()) known.push_back(codec.str());
-        return Error{"codec " + quoted(name) + " is not of the form basis/encoder/evaluator" +
+        return Error{"codec " + in_quotes(name) + " is not of the form basis/encoder/evaluator" +
                      nearest_names(name, known)};
     }
     return CodecName{std::string(name.substr(0, first)), std::string(name.substr(first + 1, last - first - 1)),
@@ -198,7 +198,7 @@ Result<Codec> make_codec(std::string_view name) {
     if (!parts) return parts.error();
     const auto basis = make_basis(parts->basis);
     auto codec = basis ? put_together(*std::move(parts), *basis) : basis.error();
-    if (!codec) return Error{"codec " + quoted(name) + ": " + codec.error().message};
+    if (!codec) return Error{"codec " + in_quotes(name) + ": " + codec.error().message};
     return codec;
 }
 

@@ -14,13 +14,13 @@ std::string number(float value) {
     return error == std::errc() ? std::string(text, end) : "0";
 }
 
-std::string quoted(std::string_view text) { return "\"" + std::string(text) + "\""; }
+std::string in_quotes(std::string_view text) { return "\"" + std::string(text) + "\""; }
 
 std::string channel_json(const StoredChannel& channel) {
     const bool is_ratio = channel.form == StoredChannel::Form::ratio;
     return "{\"coefficient\": " + std::to_string(channel.coefficient) +
-           ", \"component\": " + quoted(component_name(channel.component)) +
-           ", \"form\": " + quoted(is_ratio ? "ratio" : "value") + ", \"scale\": " + number(channel.scale) +
+           ", \"component\": " + in_quotes(component_name(channel.component)) +
+           ", \"form\": " + in_quotes(is_ratio ? "ratio" : "value") + ", \"scale\": " + number(channel.scale) +
            ", \"offset\": " + number(channel.offset) + "}";
 }
 
@@ -33,7 +33,7 @@ std::string_view component_name(Component component) {
 
 std::string texture_json(const TextureLayout::Texture& texture) {
     const FormatInfo& format = info(texture.format);
-    std::string text = "{\"name\": " + quoted(texture.name) + ", \"format\": " + quoted(format.name) +
+    std::string text = "{\"name\": " + in_quotes(texture.name) + ", \"format\": " + in_quotes(format.name) +
                        ", \"vk_format\": " + std::to_string(format.vk_format) +
                        ", \"subsampling\": " + std::to_string(texture.subsampling) + ", \"channels\": [";
     std::string_view separator;
