@@ -1,4 +1,4 @@
-// The extension module lobelia._native; python/lobelia/__init__.py is what people import.
+// The extension module lobelia._native; python/src/lobelia/__init__.py is what people import.
 #include "arrays.h"
 
 namespace lobelia::python {
@@ -57,7 +57,8 @@ Samples to_samples(const FloatArray& directions, const FloatArray& radiance,
 PYBIND11_MODULE(_native, module) {
     using namespace lobelia::python;
     module.attr("__version__") = LOBELIA_VERSION;
-    pybind11::register_exception<BadInput>(module, "Error", PyExc_ValueError);
+    pybind11::register_exception<BadInput>(module, "Error", PyExc_ValueError).attr("__doc__") =
+        "Bad input: a file, a name, an option or the shape of an array; the message names the place and the remedy.";
     add_environment(module);
     add_codec(module);
     add_storage(module);

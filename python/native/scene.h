@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "scene/gltf_read.h"
+#include "lobelia/gltf.h"
 
 namespace lobelia::python {
 

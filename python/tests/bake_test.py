@@ -87,7 +87,7 @@ class Bakes(unittest.TestCase):
 
 
 class Stops(unittest.TestCase):
-    """Bakes that would take minutes end at once."""
+    """Bakes that would take hours end soon, on a busy machine, too."""
 
     LONG = {"size": (512, 512), "samples": 100000}
 
@@ -107,7 +107,7 @@ class Stops(unittest.TestCase):
         begin = time.monotonic()
         with self.assertRaises(KeyboardInterrupt):
             lobelia.bake(lobelia.embedded_scene("cornell"), **self.LONG)
-        self.assertLess(time.monotonic() - begin, 20)
+        self.assertLess(time.monotonic() - begin, 60)
 
     def test_other_threads_run_meanwhile(self):
         ticks = []
