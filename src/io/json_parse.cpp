@@ -22,7 +22,8 @@ std::string reason(std::string message) {
     constexpr std::size_t most = 160;
     for (char& c : message)
         if (static_cast<unsigned char>(c) < 0x20 || static_cast<unsigned char>(c) >= 0x7f) c = '?';
-    return message.size() <= most ? message : message.substr(0, most) + "...";
+    if (message.size() > most) message.replace(most, std::string::npos, "...");
+    return message;
 }
 
 /// Tests if the word around this position is a common spelling of NaN or infinity.
