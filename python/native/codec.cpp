@@ -34,8 +34,10 @@ py::array_t<float> encode_samples(const Codec& codec, const FloatArray& directio
     return from_colours(c);
 }
 
+using Evaluation = void (Codec::*)(std::span<const Rgb>, DirectionView, MutableColourView) const;
+
 /// Evaluates `codec`.*method at directions of shape (..., 3).
-template <auto method>
+template <Evaluation method>
 py::array_t<float> evaluate_codec(const Codec& codec, const FloatArray& coefficients, const FloatArray& directions) {
     const auto c = to_colours(coefficients, codec.basis().size(), "coefficients");
     const Directions at = to_planes(directions, "directions");

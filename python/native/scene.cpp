@@ -18,7 +18,9 @@ SceneHandle read(const std::filesystem::path& path, std::size_t uv_set, bool pho
 }
 
 SceneHandle make_embedded(const std::string& name) {
-    return {std::make_shared<LoadedScene>(LoadedScene{value_or_throw(embedded_scene(name)), {}})};
+    auto loaded = std::make_shared<LoadedScene>();
+    loaded->scene = value_or_throw(embedded_scene(name));
+    return {std::move(loaded)};
 }
 
 void set_scene_sky(SceneHandle& self, double turbidity, double sun_elevation, double sun_azimuth) {

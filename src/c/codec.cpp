@@ -94,6 +94,11 @@ lob_status lob_radiance(const lob_codec* codec, const float* coefficients, size_
     return guarded([&] {
         if (auto status = check_evaluation("lob_radiance", codec, coefficients, coefficient_count, directions, out))
             return status;
+        if (count == 1) {
+            const Vec3 one{directions[0], directions[1], directions[2]};
+            colours(out, 1).front() = codec->codec.radiance(colours(coefficients, coefficient_count), one);
+            return LOB_OK;
+        }
         for_each_block(directions, count, out, [&](DirectionView block, MutableColourView L) {
             codec->codec.radiance(colours(coefficients, coefficient_count), block, L);
         });
@@ -106,6 +111,11 @@ lob_status lob_irradiance(const lob_codec* codec, const float* coefficients, siz
     return guarded([&] {
         if (auto status = check_evaluation("lob_irradiance", codec, coefficients, coefficient_count, normals, out))
             return status;
+        if (count == 1) {
+            const Vec3 one{normals[0], normals[1], normals[2]};
+            colours(out, 1).front() = codec->codec.irradiance(colours(coefficients, coefficient_count), one);
+            return LOB_OK;
+        }
         for_each_block(normals, count, out, [&](DirectionView block, MutableColourView E) {
             codec->codec.irradiance(colours(coefficients, coefficient_count), block, E);
         });
