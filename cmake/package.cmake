@@ -1,4 +1,6 @@
-# cpack -G DEB in the build folder makes lobelia_<version>_<architecture>.deb; with -DCMAKE_INSTALL_PREFIX=/usr.
+# A Debian package, lobelia_<version>_<architecture>.deb:
+#
+#   cmake --preset package && cmake --build --preset package && (cd build/package && cpack)
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME lobelia)
 set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
@@ -22,6 +24,7 @@ set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "nodejs (>= 18), npm")
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS
   "libhwy-dev, libembree-dev, libtbb-dev, libopenexr-dev, libfmt-dev, zlib1g-dev, pkg-config")
 if(TARGET lobelia_python)
-  set(CPACK_DEBIAN_PACKAGE_DEPENDS "python3 (>= ${Python_VERSION_MAJOR}.${Python_VERSION_MINOR}), python3-numpy")
+  # The extension module is for one version of Python.
+  set(CPACK_DEBIAN_PACKAGE_DEPENDS "python3 (>= ${lobelia_python_version}), python3-numpy")
 endif()
 include(CPack)
