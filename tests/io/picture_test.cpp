@@ -283,9 +283,8 @@ TEST(ReadLdr, PicturesNeedTheOption) {
 
 TEST(ReadLdr, OversizedHuffmanTablesAreRefused) {
     // A table that claims 16 * 20 codes, of which there can be 256.
-    const std::string segment =
-        "\xff\xc4"s + std::string("\x01\x53\x00", 3) + std::string(16, 20) + std::string(320, 'c');
-    const std::string jpeg = "\xff\xd8"s + segment + "\xff\xd9";
+    std::string jpeg("\xff\xd8\xff\xc4\x01\x53\x00", 7);
+    jpeg.append(16, 20).append(320, 'c').append("\xff\xd9");
     const auto loaded = read_as_environment(jpeg);
     ASSERT_FALSE(loaded);
     EXPECT_NE(loaded.error().message.find("Huffman"), std::string::npos) << loaded.error().message;
