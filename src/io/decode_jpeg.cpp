@@ -91,9 +91,12 @@ void take_scan(JpegReader& reader) {
 void require_tables(JpegReader& reader) {
     const jpeg_decompress_struct& codec = reader.codec;
     if (codec.arith_code || codec.progressive_mode) return;
+    const auto exists = [](int table) { return table >= 0 && table < NUM_HUFF_TBLS; };
     for (int i = 0; i < codec.comps_in_scan; ++i) {
         const jpeg_component_info& component = *codec.cur_comp_info[i];
-        if (codec.dc_huff_tbl_ptrs[component.dc_tbl_no] == nullptr ||
+        // The file's numbers, up to 15.
+        if (!exists(component.dc_tbl_no) || !exists(component.ac_tbl_no) ||
+            codec.dc_huff_tbl_ptrs[component.dc_tbl_no] == nullptr ||
             codec.ac_huff_tbl_ptrs[component.ac_tbl_no] == nullptr)
             reader.escape.leave("a scan names a Huffman table that was not defined");
     }

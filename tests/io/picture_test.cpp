@@ -150,11 +150,11 @@ TEST(ReadPicture, JpegTablesMustBeDefined) {
         EXPECT_NE(huffman.find("at byte"), std::string::npos) << huffman;
         EXPECT_NE(quantisation.find("uantization table"), std::string::npos) << quantisation;
     }
-    // Tables that a single scan names: each of 0 to 3 but the two that are defined.
+    // Tables that a single scan names: of 0 to 3 but the two that are defined, and beyond what there can be.
     auto segments = split_jpeg(make_jpeg(picture, {.colours = Colours::grey}));
     auto scan = std::find_if(segments.begin(), segments.end(), [](const auto& s) { return s.code == 0xda; });
     ASSERT_NE(scan, segments.end());
-    for (const char tables : {'\x01', '\x10', '\x11', '\x02', '\x20', '\x33'}) {
+    for (const char tables : {'\x01', '\x10', '\x11', '\x02', '\x20', '\x33', '\x04', '\x40', '\xff'}) {
         scan->bytes[6] = tables;
         EXPECT_NE(message_of(join_jpeg(segments)).find("Huffman table"), std::string::npos) << static_cast<int>(tables);
     }
