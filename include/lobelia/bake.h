@@ -135,6 +135,7 @@ struct BakeSession {
 struct WriteBakeOptions {
     std::optional<std::vector<std::string>> storages = {};  ///< of the textures; absent: default_storages()
     const Scene* scene = nullptr;                           ///< also write a copy of the scene and its environment
+    const std::atomic<bool>* stop = nullptr;                ///< ends the writing early, with an error and no new file
 };
 
 /// Writes a folder: pages, textures, probes, at last bake.json; returns the manifest with the files' names. Every file

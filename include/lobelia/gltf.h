@@ -1,9 +1,11 @@
 // Scenes from and to glTF 2.0 files (Khronos 2021). Reading is safe on any bytes.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -26,7 +28,17 @@ struct GltfReadOptions {
     std::size_t most_triangles = std::size_t{1} << 27;  ///< of all meshes, and of all objects; three times the vertices
     std::size_t most_objects = std::size_t{1} << 22;
     std::size_t most_texels = std::size_t{1} << 28;  ///< of all textures
+    /// Memory that the scene may take, with all its copies laid out in the world [bytes]. Absent: default_scene_memory
+    /// of the file's size, so that a small file cannot ask for a large amount. Work is limited with it: at most one
+    /// element is read for 8 bytes.
+    std::optional<std::size_t> scene_memory = {};
+    const std::atomic<bool>* stop = nullptr;  ///< ends the reading early, with an error, when it becomes true
 };
+
+/// Memory that a scene may take unless an option says otherwise: 1 GiB, and 256 times the size of its files [bytes].
+[[nodiscard]] constexpr std::size_t default_scene_memory(std::size_t bytes_of_files) {
+    return (std::size_t{1} << 30) + 256 * bytes_of_files;
+}
 
 /// Reads a .gltf or .glb file; the content, not the name, decides which. Buffers and images that it refers to must lie
 /// in its folder or below. Errors name the file, the place in its JSON and the remedy.

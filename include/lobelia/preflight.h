@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -14,13 +15,14 @@
 
 namespace lobelia {
 
-/// Memory that a bake needs besides the scene [bytes].
+/// Memory that a bake needs [bytes].
 struct BakeMemory {
+    std::size_t scene = 0;      ///< all objects laid out in the world, and the tree of their triangles
     std::size_t states = 0;     ///< encoder states of all texels; a bake may keep them region by region
     std::size_t pages = 0;      ///< the result
     std::size_t texels = 0;     ///< owner of each texel
     std::size_t finishing = 0;  ///< work buffers of the denoiser, after the states are freed
-    [[nodiscard]] std::size_t total() const { return pages + texels + std::max(states, finishing); }
+    [[nodiscard]] std::size_t total() const { return scene + pages + texels + std::max(states, finishing); }
 };
 
 /// Status of a texel; if several apply, the most severe.
@@ -72,8 +74,9 @@ struct Preflight {
 };
 
 /// Lays out the pages and measures the ray rate for a quarter of a second. Errors as those of bake() before its first
-/// ray.
-[[nodiscard]] Result<Preflight> preflight(const Scene& scene, const BakeJob& job);
+/// ray; an early stop, when `stop` becomes true, is an error too.
+[[nodiscard]] Result<Preflight> preflight(const Scene& scene, const BakeJob& job,
+                                          const std::atomic<bool>* stop = nullptr);
 
 /// Returns one sentence for each problem, with the objects' names; none if there is nothing to mend.
 [[nodiscard]] std::vector<std::string> warnings(const Preflight& preflight, const Scene& scene);

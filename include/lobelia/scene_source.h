@@ -1,6 +1,7 @@
 // Scenes by name: a glTF file or an embedded scene, and the environment around it.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -23,6 +24,7 @@ struct SceneSource {
     std::optional<double> sun_elevation = {};     ///< [degrees]; setting one of these three selects the embedded sky
     std::optional<double> sun_azimuth = {};       ///< from -z towards +x [degrees]
     std::optional<double> turbidity = {};         ///< haze
+    std::optional<std::size_t> scene_memory = {};  ///< GltfReadOptions::scene_memory
 };
 
 /// A scene that passes check_scene, and the reader's warnings.
@@ -33,7 +35,8 @@ struct LoadedScene {
     std::vector<std::string> parts_without_lightmap_uv;
 };
 
-/// Reads or makes the scene and sets its environment. Errors name the file, the place in it and what to do.
-[[nodiscard]] Result<LoadedScene> load_scene(const SceneSource& source);
+/// Reads or makes the scene and sets its environment. Errors name the file, the place in it and what to do; an early
+/// stop, when `stop` becomes true, is an error too.
+[[nodiscard]] Result<LoadedScene> load_scene(const SceneSource& source, const std::atomic<bool>* stop = nullptr);
 
 }  // namespace lobelia

@@ -1,6 +1,7 @@
 // Which coefficient is in which channel of which texture: data that packing, unpacking, shaders and files all read.
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <span>
 #include <string>
@@ -83,10 +84,11 @@ struct PackedTexture {
 [[nodiscard]] std::vector<PackedTexture> pack(const TextureLayout& layout, const CoefficientPlanes& coefficients);
 
 /// The same, one texture after the other, for large pages: only the one that is handed over is in memory, and the
-/// leading coefficient's where ratios to it follow. It ends with the first error that `take` returns.
+/// leading coefficient's where ratios to it follow. It ends with the first error that `take` returns, or with one when
+/// `stop` becomes true.
 using TakeTexture = std::function<Status(const TextureLayout::Texture& texture, const PackedTexture& packed)>;
 [[nodiscard]] Status pack_each(const TextureLayout& layout, const CoefficientPlanes& coefficients,
-                               const TakeTexture& take);
+                               const TakeTexture& take, const std::atomic<bool>* stop = nullptr);
 
 /// The inverse, for textures of this layout; sub-sampled ones are read as the nearest texel.
 void unpack(const TextureLayout& layout, std::span<const PackedTexture> textures, const MutableCoefficientPlanes& out);

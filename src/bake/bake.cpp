@@ -39,7 +39,7 @@ void warn(Bake& bake, const BakeSession& session, const std::string& text) {
 /// Lays out pages, texels and probes; checks everything that is cheap to refuse, and warns.
 Result<BakeWork> place(const Scene& scene, const BakeJob& job, const BakeSession& session) {
     if (const auto textures = PageTextures::make(job.bake.codec, job.storages); !textures) return textures.error();
-    auto setup = BakeSetup::make(scene, job.bake);
+    auto setup = BakeSetup::make(scene, job.bake, session.stop);
     if (!setup) return setup.error();
     BakeWork work{*std::move(setup), {}};
     if (job.probes)
@@ -50,7 +50,7 @@ Result<BakeWork> place(const Scene& scene, const BakeJob& job, const BakeSession
     work.bake.manifest.precision = job.precision;
     for (const std::string& warning : session.earlier_warnings) warn(work.bake, session, warning);
     if (!work.setup->tracer->has_light()) warn(work.bake, session, "the scene has no light; everything will be black");
-    work.bake.preflight = preflight(*work.setup);
+    work.bake.preflight = preflight(*work.setup, session.stop);
     for (const std::string& warning : warnings(*work.bake.preflight, scene)) warn(work.bake, session, warning);
     return work;
 }
@@ -68,7 +68,7 @@ Status gather_and_solve(BakeWork& work, const BakeSession& session, const fs::pa
         const auto region = gatherer.gather(number);
         if (!region) return region.error();
         solve_onto(work.bake.pages, setup.atlas, setup.map,
-                   {region->texels, region->receivers, region->states.states()}, setup.encoding,
+                   {region->texels, region->receivers, region->states.states(), session.stop}, setup.encoding,
                    setup.options.samples_per_pass, totals);
         const RegionHeader& header = region->states.header;
         statistics.rays += header.rays;
@@ -108,10 +108,11 @@ Status finish(BakeWork& work, const FinishOptions& steps, const BakeSession& ses
     const BakeSetup& setup = *work.setup;
     std::vector<LightmapPage>& pages = work.bake.pages;
     std::vector<std::string>& taken = work.bake.manifest.finish;
-    const TexelMap map = map_texels(setup.atlas);
-    Guides guides = make_guides(setup.atlas, map);
+    const StopFlag stop = session.stop;
+    const TexelMap map = map_texels(setup.atlas, stop);
+    Guides guides = make_guides(setup.atlas, map, stop);
     if (steps.denoise == Switch::on) {
-        if (denoise_pages(pages, setup.encoding, guides))
+        if (denoise_pages(pages, setup.encoding, guides, stop))
             taken.emplace_back("denoise");
         else
             warn(work.bake, session,
@@ -122,15 +123,20 @@ Status finish(BakeWork& work, const FinishOptions& steps, const BakeSession& ses
     const bool fitted = pages.front().planes.size() != setup.encoding.page_channels().count();
     if (steps.seams == Switch::on) {
         SeamSurroundings around{setup.tracer.get(), {}};
-        if (setup.options.push_out == Switch::on) around.displaced = displaced_texels(setup.atlas, map, *setup.tracer);
-        if (!fitted) close_seams(pages, setup.encoding.page_channels(), setup.atlas, {}, around);
+        if (setup.options.push_out == Switch::on)
+            around.displaced = displaced_texels(setup.atlas, map, *setup.tracer, stop);
+        SeamOptions options;
+        options.stop = stop;
+        if (!fitted) close_seams(pages, setup.encoding.page_channels(), setup.atlas, options, around);
         taken.emplace_back("seams");
     }
     if (steps.dilate == Switch::on) {
-        dilate(pages);
+        DilateOptions options;
+        options.stop = stop;
+        dilate(pages, options);
         taken.emplace_back("dilate");
     }
-    if (!fitted) fit_codec(pages, setup.encoding);
+    if (!fitted) fit_codec(pages, setup.encoding, stop);
     work.bake.normals = std::move(guides.normal);
     return Done{};
 }
@@ -145,7 +151,7 @@ Status add_probes(BakeWork& work, const BakeJob& job, const BakeSession& session
 
 Status write(BakeWork& work, const BakeJob& job, const BakeSession& session) {
     if (session.folder.empty()) return Done{};
-    auto manifest = write_bake(session.folder, work.bake, {job.storages, work.setup->scene});
+    auto manifest = write_bake(session.folder, work.bake, {job.storages, work.setup->scene, session.stop});
     if (!manifest) return manifest.error();
     for (std::size_t i = work.bake.manifest.warnings.size(); i < manifest->warnings.size() && session.warn; ++i)
         session.warn(manifest->warnings[i]);
@@ -153,11 +159,11 @@ Status write(BakeWork& work, const BakeJob& job, const BakeSession& session) {
     return Done{};
 }
 
-/// Runs `work` with the job's number of threads.
+/// Runs `work` with the job's number of threads; an error if it is stopped.
 template <class Work>
 auto with_threads(const BakeJob& job, const Work& work) {
     tbb::task_arena arena(job.bake.threads == 0 ? tbb::task_arena::automatic : static_cast<int>(job.bake.threads));
-    return arena.execute(work);
+    return arena.execute([&] { return unless_stopped(work); });
 }
 
 /// An error if the folder cannot be written to, or holds states that a fresh start would replace.
@@ -165,6 +171,9 @@ Status check_session(const BakeSession& session) {
     if (session.folder.empty()) return Done{};
     if (auto status = check_folder(session.folder); !status) return status;
     std::error_code code;
+    if (const fs::path checkpoint = checkpoint_folder(session.folder); fs::is_symlink(checkpoint, code))
+        return Error{checkpoint.string() +
+                     ": a symbolic link; checkpoints are written into the bake's own folder only"};
     const fs::path states = region_file(checkpoint_folder(session.folder), 0);
     if (session.start == BakeSession::Start::fresh && fs::exists(states, code)) return earlier_checkpoint(states);
     return Done{};
@@ -196,15 +205,15 @@ Result<Bake> bake(const Scene& scene, const BakeJob& job, BakeSession& session) 
 
 Result<Bake> merge_bake(const Scene& scene, const BakeJob& job, std::span<const fs::path> shards,
                         BakeSession& session) {
-    if (auto status = check_folder(session.folder); !status) return status.error();
+    if (auto status = check_session(session); !status) return status.error();
     std::vector<fs::path> checkpoints;
     for (const fs::path& shard : shards) checkpoints.push_back(checkpoint_folder(shard));
-    {
-        const auto setup = BakeSetup::make(scene, job.bake);
+    const Status merged = with_threads(job, [&]() -> Status {
+        const auto setup = BakeSetup::make(scene, job.bake, session.stop);
         if (!setup) return setup.error();
-        const Status status = merge_shards(**setup, checkpoints, checkpoint_folder(session.folder));
-        if (!status) return status.error();
-    }
+        return merge_shards(**setup, checkpoints, checkpoint_folder(session.folder), session.stop);
+    });
+    if (!merged) return merged.error();
     // Every pass is there now.
     session.start = BakeSession::Start::resume;
     return bake(scene, job, session);
@@ -223,7 +232,7 @@ Result<Bake> rebake_object(const Scene& scene, const BakeJob& job, std::string_v
 
         // Finish them among the texels that are there, and write all of them.
         status = finish(*work, job.finish, session, [&](std::vector<LightmapPage>& pages) {
-            fit_codec(pages, work->setup->encoding);
+            fit_codec(pages, work->setup->encoding, session.stop);
             return fill_up_from(there, *work->setup, pages);
         });
         if (!status) return status.error();
@@ -240,12 +249,12 @@ Result<Bake> rebake_object(const Scene& scene, const BakeJob& job, std::string_v
     });
 }
 
-Result<Preflight> preflight(const Scene& scene, const BakeJob& job) {
+Result<Preflight> preflight(const Scene& scene, const BakeJob& job, const std::atomic<bool>* stop) {
     return with_threads(job, [&]() -> Result<Preflight> {
         if (const auto textures = PageTextures::make(job.bake.codec, job.storages); !textures) return textures.error();
-        const auto setup = BakeSetup::make(scene, job.bake);
+        const auto setup = BakeSetup::make(scene, job.bake, stop);
         if (!setup) return setup.error();
-        return preflight(**setup, measure_rate((*setup)->atlas, (*setup)->map, *(*setup)->tracer));
+        return preflight(**setup, stop, measure_rate((*setup)->atlas, (*setup)->map, *(*setup)->tracer));
     });
 }
 

@@ -35,15 +35,15 @@ Status bake_fresh(const BakeArguments& arguments) {
     const auto job = job_of(arguments);
     if (!job) return job.error();
     if (auto status = check_folder(arguments.out); !status) return status;
-    const auto loaded = load_scene_to_bake(job->scene);
-    if (!loaded) return loaded.error();
+    const StopOnInterrupt stop;
+    const auto loaded = load_scene_to_bake(job->scene, stop.flag());
+    if (!loaded) return ended(loaded.error(), stop);
     const Scene& scene = loaded->scene;
     if (arguments.preflight) {
         for (const auto& warning : loaded->warnings) complain("lobelia: warning: " + warning);
-        const auto checked = preflight(scene, *job);
-        return checked ? print_preflight(*checked, scene, arguments.out) : checked.error();
+        const auto checked = preflight(scene, *job, &stop.flag());
+        return checked ? print_preflight(*checked, scene, arguments.out) : ended(checked.error(), stop);
     }
-    const StopOnInterrupt stop;
     BakeSession session = session_in(arguments.out, stop);
     session.earlier_warnings = loaded->warnings;
     return finish_session(scene, *job, bake(scene, *job, session), session);
@@ -60,10 +60,10 @@ Status bake_again(const BakeArguments& arguments) {
     job->bake.threads = arguments.job.bake.threads;
     job->bake.most_seconds = arguments.job.bake.most_seconds;
     job->bake.samples += arguments.add_samples;
-    const auto loaded = load_scene_to_bake(job->scene);
-    if (!loaded) return loaded.error();
-    const Scene& scene = loaded->scene;
     const StopOnInterrupt stop;
+    const auto loaded = load_scene_to_bake(job->scene, stop.flag());
+    if (!loaded) return ended(loaded.error(), stop);
+    const Scene& scene = loaded->scene;
     BakeSession session = session_in(arguments.out, stop);
     session.earlier_warnings = loaded->warnings;
     if (arguments.rebake_object.empty()) {

@@ -10,19 +10,6 @@ namespace {
 
 constexpr std::size_t k_most_side = 16384;
 
-/// Parses "4G", "512M" or a number of bytes.
-Result<std::size_t> parse_memory(const std::string& text) {
-    double value = 0;
-    const char* end = text.data() + text.size();
-    const auto [rest, code] = std::from_chars(text.data(), end, value);
-    const std::string unit(rest, end);
-    const double factor = unit.empty() ? 1 : unit == "M" ? 1 << 20 : unit == "G" ? 1 << 30 : 0;
-    constexpr double least = 64 << 20, most = 1e15;
-    if (code != std::errc() || factor == 0 || !(value * factor >= least) || !(value * factor <= most))
-        return Error{"--memory: \"" + text + "\" is not an amount such as 512M or 4G (64M at least)"};
-    return static_cast<std::size_t>(value * factor);
-}
-
 /// Parses "0/4".
 Result<Shard> parse_shard(const std::string& text, Shard::By by) {
     Shard shard{by};
@@ -89,7 +76,7 @@ Switch off_if(bool flag) { return flag ? Switch::off : Switch::on; }
 Result<BakeJob> job_of(const BakeArguments& a) {
     // Parse texts.
     const auto size = parse_size("--size", a.size), picture = parse_size("--picture-size", a.picture_size);
-    const auto memory = parse_memory(a.memory);
+    const auto memory = parse_bytes("--memory", a.memory);
     const auto shard = parse_shard(a.shard, a.shard_by == "tiles" ? Shard::By::tiles : Shard::By::samples);
     const auto probes = parse_probes(a);
     const auto storages = parse_storages(a.storages);

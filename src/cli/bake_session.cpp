@@ -45,9 +45,14 @@ void print_summary(const Bake& bake) {
 }
 
 Status stopped(const BakeSession& session, const BakeOptions& options) {
-    complain(options.only_object ? fmt::format("lobelia: stopped; the bake in {} is unchanged", session.folder.string())
-                                 : fmt::format("lobelia: stopped; continue with: lobelia bake --resume -o {}",
-                                               session.folder.string()));
+    std::error_code code;
+    if (!options.only_object && !std::filesystem::exists(session.folder / "checkpoint" / "job.json", code))
+        complain("lobelia: stopped, before anything was baked");
+    else
+        complain(
+            options.only_object
+                ? fmt::format("lobelia: stopped; the bake in {} is unchanged", session.folder.string())
+                : fmt::format("lobelia: stopped; continue with: lobelia bake --resume -o {}", session.folder.string()));
     StopOnInterrupt::end_program();
     return Error{"stopped"};
 }
@@ -59,7 +64,8 @@ Status write_report(const Scene& scene, const BakeJob& job, const Bake& bake, co
     pictures.progress = progress_bar();
     const auto html = bake_report(scene, bake, job.report, pictures);
     if (!html) return html.error();
-    return write_file_atomically(session.folder / "bake.html", *html);
+    const FileContent file{session.folder / "bake.html", *html};
+    return write_into_folder(session.folder, {&file, 1});
 }
 
 }  // namespace

@@ -23,6 +23,18 @@ Result<LatLong> parse_grid(const std::string& text) {
     return grid;
 }
 
+Result<std::size_t> parse_bytes(std::string_view option, const std::string& text) {
+    double value = 0;
+    const char* end = text.data() + text.size();
+    const auto [rest, code] = std::from_chars(text.data(), end, value);
+    const std::string unit(rest, end);
+    const double factor = unit.empty() ? 1 : unit == "M" ? 1 << 20 : unit == "G" ? 1 << 30 : 0;
+    constexpr double least = 64 << 20, most = 1e15;
+    if (code != std::errc() || factor == 0 || !(value * factor >= least) || !(value * factor <= most))
+        return Error{fmt::format("{}: \"{}\" is not an amount such as 512M or 4G (64M at least)", option, text)};
+    return static_cast<std::size_t>(value * factor);
+}
+
 void complain(const std::string& line) {
     std::fputs((line + "\n").c_str(), stderr);
     std::fflush(stderr);

@@ -16,6 +16,9 @@ namespace lobelia::cli {
 /// Parses "256x128" as a grid of at least 1 x 1 and at most 2^26 texels.
 [[nodiscard]] Result<LatLong> parse_grid(const std::string& text);
 
+/// Parses "4G", "512M" or a number of bytes, at least 64 MiB; errors name the option.
+[[nodiscard]] Result<std::size_t> parse_bytes(std::string_view option, const std::string& text);
+
 /// Prints a line on stderr; if stderr is closed, the line is lost and nothing else changes.
 void complain(const std::string& line);
 

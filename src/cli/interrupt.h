@@ -1,11 +1,15 @@
 // Ctrl-C: work is asked to stop, cleans up, and the program ends as the signal would have ended it.
 #pragma once
 
+#include <array>
 #include <atomic>
+
+#include "lobelia/result.h"
 
 namespace lobelia::cli {
 
-/// While it lives, the first SIGINT or SIGTERM asks the work to stop, and a second one ends the program. One at a time.
+/// While it lives, the first SIGINT (Ctrl-C), SIGTERM or SIGHUP (the terminal is closed) asks the work to stop, and a
+/// second one ends the program. Signals that are ignored, as under nohup, stay ignored. One at a time.
 class StopOnInterrupt {
   public:
     StopOnInterrupt();
@@ -19,8 +23,11 @@ class StopOnInterrupt {
     static void end_program();
 
   private:
-    void (*previous_interrupt_)(int);
-    void (*previous_terminate_)(int);
+    using Handler = void (*)(int);
+    std::array<Handler, 3> previous_{};
 };
+
+/// Returns the error of work that failed, or ends the program if it was the signal that ended the work.
+[[nodiscard]] Error ended(Error error, const StopOnInterrupt& stop);
 
 }  // namespace lobelia::cli

@@ -18,9 +18,9 @@ Status merge_verb(const MergeArguments& arguments) {
     if (!job) return job.error();
     job->bake.shard = {};
     job->bake.threads = arguments.threads;
-    const auto loaded = load_scene_to_bake(job->scene);
-    if (!loaded) return loaded.error();
     const StopOnInterrupt stop;
+    const auto loaded = load_scene_to_bake(job->scene, stop.flag());
+    if (!loaded) return ended(loaded.error(), stop);
     BakeSession session = session_in(arguments.out, stop);
     session.earlier_warnings = loaded->warnings;
     const std::vector<std::filesystem::path> parts(arguments.parts.begin(), arguments.parts.end());

@@ -3,21 +3,48 @@
 
 #include <fcntl.h>
 #include <fmt/core.h>
-#include <spawn.h>
+#include <sys/file.h>
+#ifdef __linux__
+#include <sys/prctl.h>
+#endif
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
+#include <cerrno>
+#include <csignal>
 #include <cstring>
 #include <thread>
 
 #include "io/read_file.h"
 
-extern char** environ;
-
 namespace lobelia::cli {
 namespace {
 
 constexpr std::size_t k_most_output = std::size_t{1} << 24;
+
+/// Opens a file as one of the child's standard streams. Only calls that are safe between fork and exec.
+bool open_as(int stream, const char* path, int flags) {
+    const int opened = ::open(path, flags, 0600);
+    return opened >= 0 && ::dup2(opened, stream) >= 0;
+}
+
+/// Becomes the program, or returns with errno.
+void become(char* const* argv, const char* out, const char* err, pid_t parent) {
+    // Die with the parent, which may have died by now.
+#ifdef __linux__
+    if (::prctl(PR_SET_PDEATHSIG, SIGKILL) != 0) return;
+#endif
+    if (::getppid() != parent) ::_exit(1);
+    // A group of its own is killed as a whole, and gets no signals from the terminal.
+    if (::setpgid(0, 0) != 0) return;
+    ::signal(SIGPIPE, SIG_DFL);
+    constexpr int k_write = O_WRONLY | O_CREAT | O_TRUNC;
+    if (open_as(STDIN_FILENO, "/dev/null", O_RDONLY) && open_as(STDOUT_FILENO, out, k_write) &&
+        open_as(STDERR_FILENO, err, k_write))
+        ::execvp(argv[0], argv);
+}
 
 /// Starts the program with its output in two files.
 Result<pid_t> start(const std::vector<std::string>& arguments, const std::filesystem::path& out,
@@ -25,16 +52,30 @@ Result<pid_t> start(const std::vector<std::string>& arguments, const std::filesy
     std::vector<char*> argv;
     for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
     argv.push_back(nullptr);
-    posix_spawn_file_actions_t actions;
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
-    posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
-    pid_t child = 0;
-    const int code = posix_spawnp(&child, argv[0], &actions, nullptr, argv.data(), environ);
-    posix_spawn_file_actions_destroy(&actions);
-    if (code != 0) return Error{fmt::format("{} cannot be run: {}", arguments[0], std::strerror(code))};
-    return child;
+    const auto failure = [&](int code) {
+        return Error{fmt::format("{} cannot be run: {}", arguments[0], std::strerror(code))};
+    };
+
+    // The child reports through a pipe, which exec closes, why it could not become the program.
+    std::array<int, 2> ends{};
+    if (::pipe2(ends.data(), O_CLOEXEC) != 0) return failure(errno);
+    io::Descriptor report(ends[0]), reporting(ends[1]);
+    const pid_t parent = ::getpid(), child = ::fork();
+    if (child < 0) return failure(errno);
+    if (child == 0) {
+        become(argv.data(), out.c_str(), err.c_str(), parent);
+        const int code = errno;
+        [[maybe_unused]] const ssize_t written = ::write(reporting.get(), &code, sizeof code);
+        ::_exit(1);
+    }
+    reporting.close();
+    int code = 0;
+    ssize_t count = 0;
+    while ((count = ::read(report.get(), &code, sizeof code)) < 0 && errno == EINTR) {
+    }
+    if (count == 0) return child;
+    ::waitpid(child, nullptr, 0);
+    return failure(code);
 }
 
 std::string text_of(const std::filesystem::path& path) {
@@ -59,7 +100,7 @@ Result<Finished> run_program(const std::vector<std::string>& arguments, std::chr
     int status = 0;
     while (waitpid(*child, &status, WNOHANG) == 0) {
         if (const bool late = Clock::now() > deadline; late || stop) {
-            kill(*child, SIGKILL);
+            kill(-*child, SIGKILL);
             waitpid(*child, &status, 0);
             if (!late) return Error{"stopped"};
             return Error{fmt::format("{} was stopped: it took longer than {} s", arguments[0], most.count())};
@@ -77,12 +118,48 @@ std::filesystem::path program_folder() {
     return std::filesystem::read_symlink("/proc/self/exe", code).parent_path();
 }
 
+namespace {
+
+constexpr std::string_view k_folder_prefix = "lobelia-run-";
+
+/// Opens a folder, not a link to one, and tries to lock it; not open where that fails.
+io::Descriptor lock_folder(const std::filesystem::path& folder) {
+    io::Descriptor lock(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC));
+    if (lock.is_open() && ::flock(lock.get(), LOCK_EX | LOCK_NB) != 0) lock.close();
+    return lock;
+}
+
+/// Removes this user's folders that nobody holds a lock on: their process is gone.
+void remove_abandoned(const std::filesystem::path& where) {
+    std::error_code code;
+    for (std::filesystem::directory_iterator entry(where, code), end; !code && entry != end; entry.increment(code)) {
+        if (!entry->path().filename().string().starts_with(k_folder_prefix)) continue;
+        const io::Descriptor lock = lock_folder(entry->path());
+        struct stat status {};
+        if (!lock.is_open() || ::fstat(lock.get(), &status) != 0 || status.st_uid != ::geteuid()) continue;
+        std::error_code ignored;
+        std::filesystem::remove_all(entry->path(), ignored);
+    }
+}
+
+}  // namespace
+
 Result<TemporaryFolder> TemporaryFolder::make() {
     std::error_code code;
-    std::string name = (std::filesystem::temp_directory_path(code) / "lobelia-XXXXXX").string();
-    if (code || mkdtemp(name.data()) == nullptr)
-        return Error{fmt::format("no temporary folder can be made: {}", code ? code.message() : std::strerror(errno))};
-    return TemporaryFolder(name);
+    const std::filesystem::path where = std::filesystem::temp_directory_path(code);
+    if (code) return Error{fmt::format("no temporary folder can be made: {}", code.message())};
+    remove_abandoned(where);
+    // Another process may take the new folder for an abandoned one before it is locked: then make another.
+    constexpr int k_attempts = 100;
+    for (int i = 0; i < k_attempts; ++i) {
+        std::string name = (where / (std::string(k_folder_prefix) + "XXXXXX")).string();
+        if (mkdtemp(name.data()) == nullptr) break;
+        io::Descriptor lock = lock_folder(name);
+        struct stat status {};
+        if (lock.is_open() && ::fstat(lock.get(), &status) == 0 && status.st_nlink > 0)
+            return TemporaryFolder(name, std::move(lock));
+    }
+    return Error{fmt::format("no temporary folder can be made in {}: {}", where.string(), std::strerror(errno))};
 }
 
 TemporaryFolder::~TemporaryFolder() {

@@ -52,11 +52,22 @@ void add_scene_options(CLI::App& command, SceneSource& options, SceneArgument ar
         ->capture_default_str();
     add_switch(command, "--photometric", options.photometric,
                "Lights and emission of the file are in lux, candela and nits, 179 lm/W (default: in watts)");
+    command
+        .add_option_function<std::string>(
+            "--scene-memory",
+            [&options](const std::string& text) {
+                const auto bytes = parse_bytes("--scene-memory", text);
+                if (!bytes) throw CLI::ValidationError(bytes.error().message);
+                options.scene_memory = *bytes;
+            },
+            "Memory that the scene of a file may take, such as 8G, with all its copies laid out: a small file may ask "
+            "for a large scene (default: 1G, and 256 times the size of the file)")
+        ->type_name("BYTES");
     add_light_options(command, options);
 }
 
-Result<LoadedScene> load_scene_to_bake(const SceneSource& options) {
-    auto loaded = load_scene(options);
+Result<LoadedScene> load_scene_to_bake(const SceneSource& options, const std::atomic<bool>& stop) {
+    auto loaded = load_scene(options, &stop);
     if (!loaded) return loaded;
     const auto& meshes = loaded->scene.meshes;
     if (!std::all_of(meshes.begin(), meshes.end(), [](const Mesh& mesh) { return mesh.lightmap_uv.empty(); }))

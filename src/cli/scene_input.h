@@ -16,6 +16,6 @@ enum class SceneArgument { required, optional };
 void add_scene_options(CLI::App& command, SceneSource& source, SceneArgument argument = SceneArgument::required);
 
 /// Loads a scene in which at least one object has lightmap UVs.
-[[nodiscard]] Result<LoadedScene> load_scene_to_bake(const SceneSource& source);
+[[nodiscard]] Result<LoadedScene> load_scene_to_bake(const SceneSource& source, const std::atomic<bool>& stop);
 
 }  // namespace lobelia::cli

@@ -12,6 +12,7 @@
 #include "io/json.h"
 #include "io/read_file.h"
 #include "lobelia/gltf.h"
+#include "scene/gltf/gather.h"
 #include "scene/lightmap_check.h"
 
 namespace lobelia::cli {
@@ -70,8 +71,9 @@ Status check_options(const UnwrapArguments& options) {
 }
 
 /// Sees that the file can be read, that all of it has UVs in the unit square, and that nothing lies on anything else.
-Status check_result(const std::filesystem::path& file, const UnwrapArguments& options) {
+Status check_result(const std::filesystem::path& file, const UnwrapArguments& options, const std::atomic<bool>& stop) {
     GltfReadOptions read_options;
+    read_options.stop = &stop;
     read_options.uv_set = options.uv_set;
     const auto loaded = read_gltf(file, read_options);
     if (!loaded) return Error{"the unwrapped scene cannot be read: " + loaded.error().message};
@@ -92,17 +94,33 @@ Status check_result(const std::filesystem::path& file, const UnwrapArguments& op
     return Done{};
 }
 
-/// Runs the script, whose output is `file`; what it printed.
-Result<std::string> run_script(const UnwrapArguments& options, const std::filesystem::path& folder,
-                               const std::filesystem::path& file, const std::atomic<bool>& stop) {
+/// Reads the scene and all that it refers to, and writes it into `folder` under names that it did not choose: the
+/// script opens files without the checks of our reader. Returns the copy.
+Result<std::filesystem::path> copy_checked(const UnwrapArguments& options, const std::filesystem::path& folder) {
+    const auto gathered = gltf::gather_gltf(options.in, k_most_bytes);
+    if (!gathered) return gathered.error();
+    for (const auto& [name, bytes] : gathered->files)
+        if (auto status = write_file_atomically(folder / name, bytes); !status) return status.error();
+    const auto copy = folder / "scene.gltf";
+    if (auto status = write_file_atomically(copy, gathered->json); !status) return status.error();
+    return copy;
+}
+
+/// Files of a run of the script.
+struct ScriptFiles {
+    std::filesystem::path script, in, out;
+};
+
+/// Runs the script; what it printed.
+Result<std::string> run_script(const UnwrapArguments& options, const ScriptFiles& files,
+                               const std::atomic<bool>& stop) {
     nlohmann::json arguments = {{"layout", options.layout}, {"padding", options.padding}, {"uvSet", options.uv_set}};
     arguments["size"] = options.size ? nlohmann::json(*options.size) : nlohmann::json();
     arguments["texelsPerMetre"] =
         options.texels_per_metre ? nlohmann::json(*options.texels_per_metre) : nlohmann::json();
-    const std::string script = (folder / "unwrap.mjs").string();
-    const std::string in = std::filesystem::absolute(options.in).string();
     auto finished =
-        run_program({"node", script, in, file.string(), arguments.dump()}, std::chrono::seconds(options.timeout), stop);
+        run_program({"node", files.script.string(), files.in.string(), files.out.string(), arguments.dump()},
+                    std::chrono::seconds(options.timeout), stop);
     if (!finished) return Error{options.in + ": " + finished.error().message};
     if (finished->code != 0) {
         const std::string& said = finished->err;
@@ -127,21 +145,25 @@ Status unwrap(const UnwrapArguments& options, const std::atomic<bool>& stop) {
     // Look at options, input and tools before the work.
     if (const auto status = check_options(options); !status) return status;
     if (const auto status = check_file(options.out); !status) return status;
-    const auto input = read_gltf(options.in);
+    GltfReadOptions reading;
+    reading.stop = &stop;
+    const auto input = read_gltf(options.in, reading);
     if (!input) return input.error();
     const auto folder = script_folder();
     if (!folder) return folder.error();
     if (const auto status = check_tools(*folder, stop); !status) return status;
 
-    // Run the script on a file in passing; check what came out, and only then write it.
+    // Run the script on a copy; check what came out, and only then write it.
     const auto passing = TemporaryFolder::make();
     if (!passing) return passing.error();
+    const auto copy = copy_checked(options, passing->path());
+    if (!copy) return copy.error();
     const auto file = passing->path() / "unwrapped.glb";
-    const auto printed = run_script(options, *folder, file, stop);
+    const auto printed = run_script(options, {*folder / "unwrap.mjs", *copy, file}, stop);
     if (!printed) return printed.error();
     const auto description = describe_result(*printed, options);
     if (!description) return description.error();
-    if (const auto status = check_result(file, options); !status)
+    if (const auto status = check_result(file, options, stop); !status)
         return Error{options.in + ": " + status.error().message};
     if (stop) return Error{"stopped"};
     const auto bytes = read_file(file, k_most_bytes);

@@ -15,7 +15,10 @@ class Descriptor {
   public:
     explicit Descriptor(int value) : value_(value) {}
     Descriptor(Descriptor&& other) noexcept : value_(std::exchange(other.value_, -1)) {}
-    Descriptor& operator=(Descriptor&&) = delete;
+    Descriptor& operator=(Descriptor&& other) noexcept {
+        std::swap(value_, other.value_);
+        return *this;
+    }
     ~Descriptor() { close(); }
     [[nodiscard]] bool is_open() const { return value_ >= 0; }
     [[nodiscard]] int get() const { return value_; }

@@ -7,6 +7,7 @@
 //   }
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
@@ -28,6 +29,7 @@ struct JsonLimits {
     std::size_t most_depth = 64;                      ///< nested arrays and objects
     std::size_t most_values = std::size_t{1} << 27;   ///< numbers, strings, arrays, objects and so on
     std::size_t longest_text = std::size_t{1} << 20;  ///< bytes of a string that JsonPlace::text() returns
+    const std::atomic<bool>* stop = nullptr;          ///< ends the parsing with an error when it becomes true
 };
 
 /// Parses `text`; messages call it `file`. Besides what is not JSON, the error is: nesting deeper than the limit, a key

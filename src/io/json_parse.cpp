@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "core/stop.h"
 #include "io/json.h"
 
 namespace lobelia {
@@ -77,6 +78,7 @@ class Builder {
     /// Puts a value where the document stands: at the top, at the end of an array, or at the last key.
     bool add(json value) {
         if (++values_ > limits_.most_values) return stop(fmt::format("more than {} values", limits_.most_values));
+        if (StopFlag(limits_.stop).is_set()) return stop("stopped");
         if (stack_.empty()) {
             root_ = std::move(value);
             last_ = &root_;

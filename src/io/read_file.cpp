@@ -46,17 +46,39 @@ Result<Bytes> read_whole(const std::filesystem::path& path, std::uint64_t most_b
 }  // namespace
 
 Result<InputFile> InputFile::open(const std::filesystem::path& path, const InputOptions& options) {
+    return open_at(AT_FDCWD, path, path.string(), options);
+}
+
+Result<InputFile> InputFile::open_below(const std::filesystem::path& folder, const std::filesystem::path& relative,
+                                        std::uint64_t most_bytes) {
+    // Open one folder within the other: a path as a whole would follow links.
+    const std::string name = (folder / relative).string();
+    io::Descriptor at(::open(folder.empty() ? "." : folder.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC));
+    if (!at.is_open()) return read_failure(name, errno);
+    if (relative.empty() || relative.is_absolute()) return Error{name + ": not a file below the folder"};
+    for (const auto& component : relative.parent_path()) {
+        if (component == "..") return Error{name + ": it leads out of the folder"};
+        io::Descriptor next(::openat(at.get(), component.c_str(), O_PATH | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC));
+        if (!next.is_open() && (errno == ENOTDIR || errno == ELOOP))
+            return Error{
+                fmt::format("{}: \"{}\" is a symbolic link or a file, not a folder", name, component.string())};
+        if (!next.is_open()) return read_failure(name, errno);
+        at = std::move(next);
+    }
+    return open_at(at.get(), relative.filename(), name, within_folder(most_bytes));
+}
+
+Result<InputFile> InputFile::open_at(int at, const std::filesystem::path& path, std::string name,
+                                     const InputOptions& options) {
     // Refuse what is not a regular file before opening it: a pipe would wait, a device might act.
-    std::string name = path.string();
     const bool follow = options.links == InputOptions::Links::followed;
     struct stat status {};
-    if ((follow ? ::stat(path.c_str(), &status) : ::lstat(path.c_str(), &status)) != 0)
-        return read_failure(name, errno);
+    if (::fstatat(at, path.c_str(), &status, follow ? 0 : AT_SYMLINK_NOFOLLOW) != 0) return read_failure(name, errno);
     if (const Status kind = check_kind(name, status); !kind) return kind.error();
 
     // Open it, and check what was really opened: the path may name another file by now.
     const int flags = O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY | (follow ? 0 : O_NOFOLLOW);
-    io::Descriptor descriptor(::open(path.c_str(), flags));
+    io::Descriptor descriptor(::openat(at, path.c_str(), flags));
     if (!descriptor.is_open() || ::fstat(descriptor.get(), &status) != 0) return read_failure(name, errno);
     if (const Status kind = check_kind(name, status); !kind) return kind.error();
     const auto size = static_cast<std::uint64_t>(status.st_size);
@@ -85,6 +107,8 @@ Result<std::vector<std::byte>> read_file(const std::filesystem::path& path, std:
 }
 
 Result<std::vector<std::byte>> read_file(const InputFile& file) { return read_whole<std::vector<std::byte>>(file); }
+
+Result<std::string> read_text(const InputFile& file) { return read_whole<std::string>(file); }
 
 Result<std::string> read_text(const std::filesystem::path& path, std::size_t most_mebibytes) {
     return read_whole<std::string>(path, std::uint64_t{most_mebibytes} << 20);

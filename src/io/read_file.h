@@ -28,6 +28,13 @@ class InputFile {
   public:
     [[nodiscard]] static Result<InputFile> open(const std::filesystem::path& path, const InputOptions& options = {});
 
+    /// Opens a file below `folder`, which others may have filled: no component of `relative` may be a symbolic link or
+    /// "..", so that nothing outside of the folder is opened, whatever changes meanwhile. The folder itself may be a
+    /// link; empty: the current one.
+    [[nodiscard]] static Result<InputFile> open_below(
+        const std::filesystem::path& folder, const std::filesystem::path& relative,
+        std::uint64_t most_bytes = std::numeric_limits<std::uint64_t>::max());
+
     [[nodiscard]] const std::string& name() const { return name_; }
     /// Size in bytes when the file was opened.
     [[nodiscard]] std::uint64_t size() const { return size_; }
@@ -35,6 +42,9 @@ class InputFile {
     [[nodiscard]] Status read(std::uint64_t position, std::span<std::byte> target) const;
 
   private:
+    /// The last component of `path`, in the folder of `at` (AT_FDCWD: the current one).
+    [[nodiscard]] static Result<InputFile> open_at(int at, const std::filesystem::path& path, std::string name,
+                                                   const InputOptions& options);
     InputFile(io::Descriptor descriptor, std::string name, std::uint64_t size)
         : descriptor_(std::move(descriptor)), name_(std::move(name)), size_(size) {}
 
@@ -50,5 +60,12 @@ class InputFile {
 
 /// Reads a regular file of at most `most_mebibytes` as text; any bytes may be in it.
 [[nodiscard]] Result<std::string> read_text(const std::filesystem::path& path, std::size_t most_mebibytes = 64);
+[[nodiscard]] Result<std::string> read_text(const InputFile& file);
+
+/// Options for the files of a bake's folder and the like, whose names are fixed or checked to be names: such a file
+/// must not be a symbolic link.
+[[nodiscard]] inline InputOptions within_folder(std::uint64_t most_bytes = std::numeric_limits<std::uint64_t>::max()) {
+    return {most_bytes, InputOptions::Links::refused};
+}
 
 }  // namespace lobelia

@@ -33,12 +33,19 @@ std::optional<fs::path> create_named_beside(const fs::path& path, const Create& 
     return std::nullopt;
 }
 
-/// Returns the end of a chain of links, which need not exist; an error if links lead in a circle.
-Result<fs::path> followed(fs::path path) {
+/// Tests for links of the system, which lead to a process's own descriptors.
+bool is_of_system(const fs::path& path) {
+    const std::string normal = path.lexically_normal().string();
+    return normal.starts_with("/dev/") || normal.starts_with("/proc/");
+}
+
+}  // namespace
+
+Result<fs::path> place_of_output(fs::path path) {
     constexpr int k_most_links = 40;
     for (int i = 0; i < k_most_links; ++i) {
         std::error_code code;
-        if (!fs::is_symlink(fs::symlink_status(path, code))) return path;
+        if (!is_of_system(path) || !fs::is_symlink(fs::symlink_status(path, code))) return path;
         const fs::path target = fs::read_symlink(path, code);
         if (code) return io::write_failure(path, code.value());
         path = path.parent_path() / target;
@@ -46,27 +53,26 @@ Result<fs::path> followed(fs::path path) {
     return io::write_failure(path, ELOOP);
 }
 
-}  // namespace
-
-StagedFile::StagedFile(fs::path target, io::Descriptor descriptor, fs::path temporary)
-    : target_(std::move(target)), descriptor_(std::move(descriptor)), temporary_(std::move(temporary)) {}
+StagedFile::StagedFile(fs::path target, io::Descriptor descriptor, fs::path temporary, StopFlag stop)
+    : target_(std::move(target)), descriptor_(std::move(descriptor)), temporary_(std::move(temporary)), stop_(stop) {}
 
 StagedFile::StagedFile(StagedFile&& other) noexcept
     : target_(std::move(other.target_)),
       descriptor_(std::move(other.descriptor_)),
-      temporary_(std::exchange(other.temporary_, {})) {}
+      temporary_(std::exchange(other.temporary_, {})),
+      stop_(other.stop_) {}
 
 StagedFile::~StagedFile() {
     if (!temporary_.empty()) ::unlink(temporary_.c_str());
 }
 
-Result<StagedFile> StagedFile::create(const fs::path& path) {
+Result<StagedFile> StagedFile::create(const fs::path& path, StopFlag stop) {
     // Find the file that it will replace.
     if (path.empty()) return Error{"a file name is missing"};
-    const Result<fs::path> target = followed(path);
+    const Result<fs::path> target = place_of_output(path);
     if (!target) return target.error();
     struct stat old {};
-    const bool replaces = ::stat(target->c_str(), &old) == 0;
+    const bool replaces = ::lstat(target->c_str(), &old) == 0 && !S_ISLNK(old.st_mode);
     if (replaces && S_ISDIR(old.st_mode)) return io::write_failure(path, EISDIR);
     if (replaces && !S_ISREG(old.st_mode)) return Error{path.string() + ": cannot be replaced: not a regular file"};
 
@@ -82,12 +88,13 @@ Result<StagedFile> StagedFile::create(const fs::path& path) {
         });
         if (!temporary) return io::write_failure(path, errno);
     }
-    StagedFile staged(*target, io::Descriptor(opened), *temporary);
+    StagedFile staged(*target, io::Descriptor(opened), *temporary, stop);
     if (replaces && ::fchmod(opened, old.st_mode & 0777) != 0) return io::write_failure(path, errno);
     return staged;
 }
 
 Status StagedFile::write(std::span<const std::byte> bytes) {
+    if (stop_.is_set()) return stopped_error();
     if (!io::write_all(descriptor_, bytes)) return io::write_failure(target_, errno);
     return Done{};
 }
@@ -99,6 +106,7 @@ Status StagedFile::seek(std::uint64_t position) {
 }
 
 Status StagedFile::flush() {
+    if (stop_.is_set()) return stopped_error();
     if (::fsync(descriptor_.get()) != 0) return io::write_failure(target_, errno);
     return Done{};
 }

@@ -3,6 +3,9 @@
 
 #include <cstdint>
 
+#include <filesystem>
+
+#include "core/stop.h"
 #include "io/descriptor.h"
 
 namespace lobelia {
@@ -12,9 +15,11 @@ namespace lobelia {
 /// name the file and the cause: no such folder, no permission, full.
 class StagedFile {
   public:
-    /// Starts an empty file for `path`: links are followed, permissions of the file that it will replace are kept. An
-    /// error if `path` is a folder, pipe or device.
-    [[nodiscard]] static Result<StagedFile> create(const std::filesystem::path& path);
+    /// Starts an empty file for `path`. Permissions of the file that it will replace are kept. A symbolic link is
+    /// replaced itself, not the file that it leads to: whoever can put a link into a folder must not choose what is
+    /// overwritten. (The system's own links, /dev/stdout, are followed.) An error if `path` is a folder, pipe or
+    /// device. Once `stop` is set, writing is an error.
+    [[nodiscard]] static Result<StagedFile> create(const std::filesystem::path& path, StopFlag stop = {});
     StagedFile(StagedFile&& other) noexcept;
     StagedFile& operator=(StagedFile&&) = delete;
     ~StagedFile();
@@ -30,11 +35,16 @@ class StagedFile {
     [[nodiscard]] Status commit();
 
   private:
-    StagedFile(std::filesystem::path target, io::Descriptor descriptor, std::filesystem::path temporary);
+    StagedFile(std::filesystem::path target, io::Descriptor descriptor, std::filesystem::path temporary, StopFlag stop);
 
     std::filesystem::path target_;
     io::Descriptor descriptor_;
     std::filesystem::path temporary_;  ///< its name until it is in place; empty while it has none
+    StopFlag stop_;
 };
+
+/// Returns where a file named `path` is written: the end of the system's own links, /dev/stdout and the like; every
+/// other link is the place itself. An error if links lead in a circle.
+[[nodiscard]] Result<std::filesystem::path> place_of_output(std::filesystem::path path);
 
 }  // namespace lobelia

@@ -33,8 +33,12 @@ Status write_directly(const fs::path& path, std::span<const std::byte> bytes) {
 }  // namespace
 
 Status write_file_atomically(const fs::path& path, std::span<const std::byte> bytes) {
+    const auto place = place_of_output(path);
+    if (!place) return place.error();
     struct stat status {};
-    if (::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode))
+    // A descriptor's name leads to a pipe by no path: ask what opening it would give.
+    const bool exists = *place == path ? ::lstat(path.c_str(), &status) == 0 : ::stat(path.c_str(), &status) == 0;
+    if (exists && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode) && !S_ISLNK(status.st_mode))
         return write_directly(path, bytes);
     auto staged = stage(path, bytes);
     return staged ? staged->commit() : staged.error();

@@ -11,8 +11,9 @@
 namespace lobelia {
 
 /// Writes `bytes` to `path` under a temporary name in the same folder, flushes them to the disk and renames; on failure
-/// the old content is untouched and the temporary is gone. Links are followed; pipes and devices (/dev/stdout) are
-/// written to directly. Errors name the file and the cause: no such folder, no permission, full.
+/// the old content is untouched and the temporary is gone. A symbolic link is replaced, not followed (StagedFile);
+/// pipes and devices, those behind /dev/stdout too, are written to directly. Errors name the file and the cause: no
+/// such folder, no permission, full.
 [[nodiscard]] Status write_file_atomically(const std::filesystem::path& path, std::span<const std::byte> bytes);
 [[nodiscard]] Status write_file_atomically(const std::filesystem::path& path, std::string_view text);
 

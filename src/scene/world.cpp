@@ -39,8 +39,9 @@ namespace {
 /// Adds one object after another to a world.
 class WorldMaker {
   public:
-    explicit WorldMaker(const Scene& scene)
+    WorldMaker(const Scene& scene, StopFlag stop)
         : scene_(&scene),
+          stop_(stop),
           colored_(
               std::any_of(scene.meshes.begin(), scene.meshes.end(), [](const Mesh& m) { return !m.colors.empty(); })) {}
 
@@ -53,6 +54,7 @@ class WorldMaker {
 
   private:
     void add(std::uint32_t number) {
+        stop_.check();
         const Object& object = scene_->objects[number];
         const Mesh& mesh = scene_->meshes[object.mesh];
         const Transform& place = object.world_from_object;
@@ -110,12 +112,13 @@ class WorldMaker {
     }
 
     const Scene* scene_;
+    StopFlag stop_;
     bool colored_;
     World world_;
 };
 
 }  // namespace
 
-World make_world(const Scene& scene) { return WorldMaker(scene).make(); }
+World make_world(const Scene& scene, StopFlag stop) { return WorldMaker(scene, stop).make(); }
 
 }  // namespace lobelia

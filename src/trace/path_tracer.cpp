@@ -8,8 +8,8 @@
 
 namespace lobelia {
 
-PathTracer::PathTracer(const Scene& scene, const World& world, const PathOptions& options)
-    : implementation_(std::make_unique<const Implementation>(scene, world, options)) {}
+PathTracer::PathTracer(const Scene& scene, const World& world, const PathOptions& options, StopFlag stop)
+    : implementation_(std::make_unique<const Implementation>(scene, world, options, stop)) {}
 
 PathTracer::~PathTracer() = default;
 

@@ -40,8 +40,8 @@ struct DirectLight {
 class PathTracer {
   public:
     class Scratch;
-    /// Builds the acceleration structure and the tables of light sources.
-    PathTracer(const Scene& scene, const World& world, const PathOptions& options = {});
+    /// Builds the acceleration structure and the tables of light sources. Throws Stopped.
+    PathTracer(const Scene& scene, const World& world, const PathOptions& options = {}, StopFlag stop = {});
     ~PathTracer();
     PathTracer(const PathTracer&) = delete;
     PathTracer& operator=(const PathTracer&) = delete;

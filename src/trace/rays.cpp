@@ -109,6 +109,8 @@ RayHit find(RTCScene scene, Context& context, RTCFilterFunctionN filter, RTCRay 
     return {query.ray.tfar, query.hit.primID, query.hit.u, query.hit.v};
 }
 
+bool go_on(void* stop, double /*done*/) { return !static_cast<const StopFlag*>(stop)->is_set(); }
+
 }  // namespace
 
 struct RayScene::Handles {
@@ -116,7 +118,7 @@ struct RayScene::Handles {
     RTCScene scene = nullptr;
 };
 
-RayScene::RayScene(const World& world, std::vector<std::uint8_t> kinds, const Transparency& transparency)
+RayScene::RayScene(const World& world, std::vector<std::uint8_t> kinds, const Transparency& transparency, StopFlag stop)
     : kinds_(std::move(kinds)), transparency_(&transparency), handles_(new Handles), all_kinds_(0) {
     for (const std::uint8_t kind : kinds_) all_kinds_ |= kind;
     assert(kinds_.size() == world.triangles.size());
@@ -138,10 +140,18 @@ RayScene::RayScene(const World& world, std::vector<std::uint8_t> kinds, const Tr
         rtcAttachGeometry(handles_->scene, geometry);
         rtcReleaseGeometry(geometry);
     }
+    // Embree asks now and then whether to go on building.
+    rtcSetSceneProgressMonitorFunction(handles_->scene, go_on, &stop);
     rtcCommitScene(handles_->scene);
+    rtcSetSceneProgressMonitorFunction(handles_->scene, nullptr, nullptr);
+    if (!stop.is_set()) return;
+    release();
+    throw Stopped{};
 }
 
-RayScene::~RayScene() {
+RayScene::~RayScene() { release(); }
+
+void RayScene::release() {
     rtcReleaseScene(handles_->scene);
     rtcReleaseDevice(handles_->device);
     delete handles_;

@@ -34,8 +34,8 @@ enum class Backs { pass, stop };
 /// The triangles of a world. Immutable; any number of threads may ask.
 class RayScene {
   public:
-    /// One entry of `kinds` for each triangle; `transparency` must outlive this.
-    RayScene(const World& world, std::vector<std::uint8_t> kinds, const Transparency& transparency);
+    /// One entry of `kinds` for each triangle; `transparency` must outlive this. Throws Stopped.
+    RayScene(const World& world, std::vector<std::uint8_t> kinds, const Transparency& transparency, StopFlag stop = {});
     ~RayScene();
     RayScene(const RayScene&) = delete;
     RayScene& operator=(const RayScene&) = delete;
@@ -51,6 +51,8 @@ class RayScene {
 
   private:
     struct Handles;
+    void release();
+
     std::vector<std::uint8_t> kinds_;
     const Transparency* transparency_;
     Handles* handles_;

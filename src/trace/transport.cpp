@@ -14,8 +14,13 @@ constexpr float k_same_spot = 1e-5f;
 
 }  // namespace
 
-PathTracer::Implementation::Implementation(const Scene& s, const World& w, const PathOptions& o)
-    : scene(&s), world(&w), options(o), surfaces(s, w), rays(w, surfaces.kinds(), surfaces), lights(s, surfaces, o) {
+PathTracer::Implementation::Implementation(const Scene& s, const World& w, const PathOptions& o, StopFlag stop)
+    : scene(&s),
+      world(&w),
+      options(o),
+      surfaces(s, w),
+      rays(w, surfaces.kinds(), surfaces, stop),
+      lights(s, surfaces, o) {
     assert(o.bounces >= 0);
 }
 

@@ -20,7 +20,7 @@ struct PathTracer::Implementation {
     RayScene rays;
     Lights lights;
 
-    Implementation(const Scene& s, const World& w, const PathOptions& o);
+    Implementation(const Scene& s, const World& w, const PathOptions& o, StopFlag stop);
 
     /// Follows the first `count` paths of the scratch to their ends.
     void follow(std::span<Incident> out, std::size_t count, Scratch& scratch) const;

@@ -65,6 +65,7 @@ class PageDenoiser {
 template <class Visit>
 void PageDenoiser::for_each_usable(const Visit& visit) const {
     tbb::parallel_for(std::size_t{0}, page_.height, [&](std::size_t y) {
+        options_.stop.check();
         for (std::size_t x = 0; x < page_.width; ++x)
             if (const std::size_t i = y * page_.width + x; usable(i)) visit(i, x, y);
     });
@@ -202,6 +203,7 @@ void PageDenoiser::average_all() {
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, channels + 6, 1), [&](const auto& range) {
         std::vector<float>& work = work_.local();
         for (std::size_t c = range.begin(); c != range.end(); ++c) {
+            options_.stop.check();
             const bool ratio = c < 3 * channels_.coefficients || c >= channels + 3;
             AtrousMean mean = ratio ? AtrousMean::known_values : AtrousMean::values;
             if (c == channels_.error())

@@ -52,6 +52,7 @@ std::vector<Fillings> find_fillings(const LightmapPage& page, const DilateOption
     const std::vector<std::uint8_t> worth_it = near_usable(page, options);
     std::vector<Fillings> result((page.height + k_rows - 1) / k_rows);
     tbb::parallel_for(std::size_t{0}, result.size(), [&](std::size_t block) {
+        options.stop.check();
         Fillings& fillings = result[block];
         std::vector<std::uint32_t> sources;
         const std::size_t end = std::min((block + 1) * k_rows, page.height) * page.width;
@@ -82,6 +83,7 @@ void dilate(std::span<LightmapPage> pages, const DilateOptions& options) {
     for (LightmapPage& page : pages) {
         const std::vector<Fillings> fillings = find_fillings(page, options);
         tbb::parallel_for(std::size_t{0}, page.planes.size(), [&](std::size_t c) {
+            options.stop.check();
             tbb::parallel_for(std::size_t{0}, fillings.size(),
                               [&](std::size_t b) { fill(fillings[b], page.planes[c]); });
         });

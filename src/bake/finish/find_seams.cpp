@@ -39,10 +39,12 @@ bool same_on_page(const Atlas& atlas, const SeamSide& a, const SeamSide& b) {
 
 /// Joins each piece to the nearest one before it at the same place whose normals agree, so that three or more become a
 /// chain. Returns the pieces that found nobody.
-std::vector<EdgePiece> join(const Atlas& atlas, std::span<const EdgePiece> pieces, std::vector<Seam>& seams) {
+std::vector<EdgePiece> join(const Atlas& atlas, std::span<const EdgePiece> pieces, StopFlag stop,
+                            std::vector<Seam>& seams) {
     constexpr std::size_t k_most_back = 8;
     std::vector<std::uint8_t> joined(pieces.size());
-    for (std::size_t i = 1; i < pieces.size(); ++i)
+    for (std::size_t i = 1; i < pieces.size(); ++i) {
+        stop.check();
         for (std::size_t back = 1; back <= std::min(i, k_most_back) && pieces[i - back].same_place(pieces[i]); ++back) {
             if (pieces[i - back].triangle == pieces[i].triangle) continue;
             const SeamSide a = side_of(atlas, pieces[i - back]), b = side_of(atlas, pieces[i]);
@@ -52,6 +54,7 @@ std::vector<EdgePiece> join(const Atlas& atlas, std::span<const EdgePiece> piece
             if (!same_on_page(atlas, a, b)) seams.push_back({a, b});
             break;
         }
+    }
     std::vector<EdgePiece> left;
     for (std::size_t i = 0; i < pieces.size(); ++i)
         if (joined[i] == 0) left.push_back(pieces[i]);
@@ -60,15 +63,15 @@ std::vector<EdgePiece> join(const Atlas& atlas, std::span<const EdgePiece> piece
 
 }  // namespace
 
-std::vector<Seam> find_seams(const Atlas& atlas, float tolerance) {
+std::vector<Seam> find_seams(const Atlas& atlas, float tolerance, StopFlag stop) {
     const World& world = atlas.world();
-    const std::vector<std::uint32_t> welded = weld_positions(world, tolerance);
+    const std::vector<std::uint32_t> welded = weld_positions(world, tolerance, stop);
     std::vector<EdgePiece> pieces;
     for (const WorldEdge& edge : sorted_edges(world, welded))
         if (atlas.placements()[world.object[edge.triangle]].baked) pieces.push_back(whole_piece(world, welded, edge));
     std::vector<Seam> seams;
-    const std::vector<EdgePiece> left = join(atlas, pieces, seams);
-    join(atlas, split_edges(world, left, tolerance), seams);
+    const std::vector<EdgePiece> left = join(atlas, pieces, stop, seams);
+    join(atlas, split_edges(world, left, tolerance, stop), stop, seams);
 
     // What is longer than any page is no edge that anybody sees.
     const auto longest = static_cast<double>(atlas.width() + atlas.height());

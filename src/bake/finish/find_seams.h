@@ -25,6 +25,6 @@ struct Seam {
 
 /// All seams between baked triangles whose normals agree, edges that meet at T-junctions part by part. Positions within
 /// `tolerance` [m] are the same.
-[[nodiscard]] std::vector<Seam> find_seams(const Atlas& atlas, float tolerance);
+[[nodiscard]] std::vector<Seam> find_seams(const Atlas& atlas, float tolerance, StopFlag stop = {});
 
 }  // namespace lobelia

@@ -1,5 +1,6 @@
 // The finishing steps, on pages of coefficients: seams, denoising, dilation. Each works in coefficient space, channel
-// by channel, and knows no basis. Order: denoise, seams, dilate. Results do not depend on the number of threads.
+// by channel, and knows no basis. Order: denoise, seams, dilate. Results do not depend on the number of threads. Each
+// step that is given a StopFlag throws Stopped once it is set, and leaves the pages half done.
 #pragma once
 
 #include "bake/place/atlas.h"
@@ -14,7 +15,7 @@ struct Guides {
     std::vector<std::vector<Vec3>> position, normal;
 };
 /// Positions and normals as make_receivers gives them.
-[[nodiscard]] Guides make_guides(const Atlas& atlas, const TexelMap& map);
+[[nodiscard]] Guides make_guides(const Atlas& atlas, const TexelMap& map, StopFlag stop = {});
 
 /// Makes the two sides of each seam agree: where an edge of a triangle, or the part of it along a shorter edge, lies in
 /// two places on the pages (of one object or of two that touch), the bilinearly filtered values along both, as they are
@@ -26,6 +27,7 @@ struct SeamOptions {
     float weight = 0.05f;
     float tolerance = 1e-4f;
     float least_validity = 0.5f;  ///< as for `dilate`, which will replace texels below it
+    StopFlag stop = {};
 };
 struct SeamReport {
     std::size_t edges = 0;         ///< pairs, of edges or of parts, that were joined
@@ -48,13 +50,15 @@ struct DenoiseOptions {
     int passes = 4;               ///< a-trous levels, 1 to 6
     float strength = 2;           ///< how many standard errors of a difference count as noise
     float least_validity = 0.5f;  ///< texels below it are neither read nor changed
+    StopFlag stop = {};
 };
 void denoise(std::span<LightmapPage> pages, const PageChannels& channels, const Guides& guides,
              std::span<const double> integrals, double domain_solid_angle, const DenoiseOptions& options = {});
 
 /// From pages of what `basis` is fitted from to pages of its own coefficients, texel by texel, empty ones, too. The
 /// last step.
-[[nodiscard]] std::vector<LightmapPage> fit_pages(std::span<const LightmapPage> pages, const FittedBasis& basis);
+[[nodiscard]] std::vector<LightmapPage> fit_pages(std::span<const LightmapPage> pages, const FittedBasis& basis,
+                                                  StopFlag stop = {});
 
 /// Fills texels where nothing was baked, or whose validity is below `least_validity`, from their nearest valid
 /// neighbours within `radius` texels, of the same chart first; so that filtering and mips read no rubbish. `chart`
@@ -62,6 +66,7 @@ void denoise(std::span<LightmapPage> pages, const PageChannels& channels, const 
 struct DilateOptions {
     std::size_t radius = 4;
     float least_validity = 0.5f;
+    StopFlag stop = {};
 };
 void dilate(std::span<LightmapPage> pages, const DilateOptions& options = {});
 

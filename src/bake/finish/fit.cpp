@@ -9,7 +9,7 @@
 namespace lobelia {
 namespace {
 
-LightmapPage fitted_page(const LightmapPage& from, const FittedBasis& basis) {
+LightmapPage fitted_page(const LightmapPage& from, const FittedBasis& basis, StopFlag stop) {
     const PageChannels source{basis.accumulated()->size()}, target{basis.size()};
     assert(from.planes.size() == source.count());
     LightmapPage to(from.width, from.height, target.count());
@@ -21,6 +21,7 @@ LightmapPage fitted_page(const LightmapPage& from, const FittedBasis& basis) {
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, from.size(), k_grain), [&](const auto& range) {
         std::vector<Rgb> accumulated(source.coefficients), c(target.coefficients);
         for (std::size_t pixel = range.begin(); pixel < range.end(); ++pixel) {
+            stop.check();
             const auto plane = [&](std::size_t i, std::size_t k) {
                 return from.planes[source.coefficient(i, k)][pixel];
             };
@@ -39,9 +40,9 @@ LightmapPage fitted_page(const LightmapPage& from, const FittedBasis& basis) {
 
 }  // namespace
 
-std::vector<LightmapPage> fit_pages(std::span<const LightmapPage> pages, const FittedBasis& basis) {
+std::vector<LightmapPage> fit_pages(std::span<const LightmapPage> pages, const FittedBasis& basis, StopFlag stop) {
     std::vector<LightmapPage> fitted;
-    for (const LightmapPage& page : pages) fitted.push_back(fitted_page(page, basis));
+    for (const LightmapPage& page : pages) fitted.push_back(fitted_page(page, basis, stop));
     return fitted;
 }
 

@@ -106,7 +106,8 @@ struct SeamPoint {
 };
 
 /// Returns points along all seams, without those where something stands on the seam.
-std::vector<SeamPoint> points_along(const Atlas& atlas, std::span<const Seam> seams, const PathTracer* tracer) {
+std::vector<SeamPoint> points_along(const Atlas& atlas, std::span<const Seam> seams, const PathTracer* tracer,
+                                    StopFlag stop) {
     double length = 0;
     for (const Seam& seam : seams) length += seam.texels();
     const double per_texel = std::min(k_points_per_texel, k_most_points / std::max(length, 1.0));
@@ -119,16 +120,19 @@ std::vector<SeamPoint> points_along(const Atlas& atlas, std::span<const Seam> se
     }
     if (tracer == nullptr) return points;
     tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t i) {
+        stop.check();
         if (is_walled(*tracer, atlas, *points[i].seam, points[i].s)) points[i].seam = nullptr;
     });
     std::erase_if(points, [](const SeamPoint& p) { return p.seam == nullptr; });
     return points;
 }
 
-SeamDifferences find_differences(const Atlas& atlas, std::span<const SeamPoint> points, Footprints& footprints) {
+SeamDifferences find_differences(const Atlas& atlas, std::span<const SeamPoint> points, StopFlag stop,
+                                 Footprints& footprints) {
     SeamDifferences result;
     const auto& charts = atlas.chart_of_triangle();
     for (const auto& [seam, s, weight] : points) {
+        stop.check();
         const auto append = [&, s = s](const SeamSide& side, double scale) {
             return footprints.append(atlas.page_of(side.triangle), charts[side.triangle],
                                      side.ends[0] * (1 - s) + side.ends[1] * s, static_cast<float>(scale),
@@ -195,13 +199,28 @@ SeamBounds bounds_of(const SeamSystem& system, const Eigen::VectorXd& values) {
     return bounds;
 }
 
+/// Eigen's preconditioner for least squares, which asks at each iteration whether to go on.
+class StoppablePreconditioner : public Eigen::LeastSquareDiagonalPreconditioner<double> {
+  public:
+    using Base = Eigen::LeastSquareDiagonalPreconditioner<double>;
+    void set_stop(StopFlag stop) { stop_ = stop; }
+    template <class Right>
+    auto solve(const Eigen::MatrixBase<Right>& right) const {
+        stop_.check();
+        return Base::solve(right);
+    }
+
+  private:
+    StopFlag stop_;
+};
+
 /// Sums of squared differences before and after, each point by its weight.
 struct Squared {
     double before = 0, after = 0;
 };
 
 Squared close(std::span<LightmapPage> pages, const Footprints& footprints, const SeamSystem& system,
-              std::size_t channel) {
+              std::size_t channel, StopFlag stop) {
     Eigen::VectorXd values(system.matrix.cols());
     for (std::size_t i = 0; i < system.texels.size(); ++i) {
         const auto [page, texel] = footprints.place(system.texels[i]);
@@ -212,7 +231,8 @@ Squared close(std::span<LightmapPage> pages, const Footprints& footprints, const
     const double before = wanted.head(points).squaredNorm();
     wanted.tail(wanted.size() - points).setZero();
 
-    Eigen::LeastSquaresConjugateGradient<SparseMatrix> solver;
+    Eigen::LeastSquaresConjugateGradient<SparseMatrix, StoppablePreconditioner> solver;
+    solver.preconditioner().set_stop(stop);
     solver.setTolerance(1e-6);
     solver.setMaxIterations(300);
     solver.compute(system.matrix);
@@ -235,18 +255,18 @@ Squared close(std::span<LightmapPage> pages, const Footprints& footprints, const
 
 SeamReport close_seams(std::span<LightmapPage> pages, const PageChannels& channels, const Atlas& atlas,
                        const SeamOptions& options, const SeamSurroundings& around) {
-    const std::vector<Seam> seams = find_seams(atlas, options.tolerance);
+    const std::vector<Seam> seams = find_seams(atlas, options.tolerance, options.stop);
     SeamReport report{.edges = seams.size()};
     Footprints footprints(pages, options.least_validity, around);
-    const SeamSystem system =
-        make_system(find_differences(atlas, points_along(atlas, seams, around.tracer), footprints),
-                    std::max(options.weight, 1e-6f));
+    const SeamSystem system = make_system(
+        find_differences(atlas, points_along(atlas, seams, around.tracer, options.stop), options.stop, footprints),
+        std::max(options.weight, 1e-6f));
     if (system.weight.empty()) return report;
 
     // Close all channels but the error, which is not light.
     std::vector<Squared> squared(channels.count());
     tbb::parallel_for(std::size_t{0}, channels.count(), [&](std::size_t channel) {
-        if (channel != channels.error()) squared[channel] = close(pages, footprints, system, channel);
+        if (channel != channels.error()) squared[channel] = close(pages, footprints, system, channel, options.stop);
     });
 
     Squared irradiance;

@@ -17,9 +17,10 @@ bool is_identity(const SquareMatrix& m) {
 }
 
 /// Multiplies the coefficients of every texel by a matrix.
-void transform(std::span<LightmapPage> pages, const PageChannels& channels, const SquareMatrix& matrix) {
+void transform(std::span<LightmapPage> pages, const PageChannels& channels, const SquareMatrix& matrix, StopFlag stop) {
     for (LightmapPage& page : pages)
         tbb::parallel_for(std::size_t{0}, page.height, [&](std::size_t y) {
+            stop.check();
             Eigen::VectorXd c(matrix.cols());
             for (std::size_t i = y * page.width; i < (y + 1) * page.width; ++i)
                 for (std::size_t k = 0; k < 3; ++k) {
@@ -36,37 +37,40 @@ void transform(std::span<LightmapPage> pages, const PageChannels& channels, cons
 /// Denoises pages that hold coefficients of a basis that others are fitted to. Such a fit reads moments, and they are
 /// filtered in place of the coefficients, which may be large and cancel each other: filtered apart, they would not.
 void denoise_moments(std::span<LightmapPage> pages, const PageChannels& channels, const Guides& guides,
-                     const LinearBasis& basis) {
+                     const LinearBasis& basis, const DenoiseOptions& options) {
     const std::vector<double> gram = basis.gram(), integrals = basis.integrals();
     const auto n = static_cast<Eigen::Index>(basis.size());
     const SquareMatrix moments_from_c = Eigen::Map<const SquareMatrix>(gram.data(), n, n);
-    if (is_identity(moments_from_c)) return denoise(pages, channels, guides, integrals, solid_angle(basis.domain()));
+    if (is_identity(moments_from_c))
+        return denoise(pages, channels, guides, integrals, solid_angle(basis.domain()), options);
     const SquareMatrix c_from_moments = moments_from_c.ldlt().solve(SquareMatrix::Identity(n, n));
     const Eigen::VectorXd of_moments = c_from_moments * Eigen::Map<const Eigen::VectorXd>(integrals.data(), n);
-    transform(pages, channels, moments_from_c);
-    denoise(pages, channels, guides, {of_moments.data(), integrals.size()}, solid_angle(basis.domain()));
-    transform(pages, channels, c_from_moments);
+    transform(pages, channels, moments_from_c, options.stop);
+    denoise(pages, channels, guides, {of_moments.data(), integrals.size()}, solid_angle(basis.domain()), options);
+    transform(pages, channels, c_from_moments, options.stop);
 }
 
 }  // namespace
 
-bool denoise_pages(std::span<LightmapPage> pages, const BakeEncoding& encoding, const Guides& guides) {
+bool denoise_pages(std::span<LightmapPage> pages, const BakeEncoding& encoding, const Guides& guides, StopFlag stop) {
+    DenoiseOptions options;
+    options.stop = stop;
     const PageChannels channels = encoding.page_channels();
     if (encoding.codec() == nullptr) {
-        denoise(pages, channels, guides, {}, solid_angle(Domain::hemisphere));
+        denoise(pages, channels, guides, {}, solid_angle(Domain::hemisphere), options);
         return true;
     }
     const LinearBasis* basis = encoding.page_encoder()->basis().linear();
     if (basis == nullptr) return false;
     if (encoding.fitted_last() != nullptr)
-        denoise_moments(pages, channels, guides, *basis);
+        denoise_moments(pages, channels, guides, *basis, options);
     else
-        denoise(pages, channels, guides, basis->integrals(), solid_angle(basis->domain()));
+        denoise(pages, channels, guides, basis->integrals(), solid_angle(basis->domain()), options);
     return true;
 }
 
-void fit_codec(std::vector<LightmapPage>& pages, const BakeEncoding& encoding) {
-    if (const FittedBasis* basis = encoding.fitted_last()) pages = fit_pages(pages, *basis);
+void fit_codec(std::vector<LightmapPage>& pages, const BakeEncoding& encoding, StopFlag stop) {
+    if (const FittedBasis* basis = encoding.fitted_last()) pages = fit_pages(pages, *basis, stop);
 }
 
 }  // namespace lobelia

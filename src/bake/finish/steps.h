@@ -7,9 +7,10 @@
 namespace lobelia {
 
 /// Smooths noise. Returns false, without a change, if the pages' coefficients are not linear in the light.
-[[nodiscard]] bool denoise_pages(std::span<LightmapPage> pages, const BakeEncoding& encoding, const Guides& guides);
+[[nodiscard]] bool denoise_pages(std::span<LightmapPage> pages, const BakeEncoding& encoding, const Guides& guides,
+                                 StopFlag stop = {});
 
 /// Replaces the coefficients that pages hold until they are finished by those of the codec, where the two differ.
-void fit_codec(std::vector<LightmapPage>& pages, const BakeEncoding& encoding);
+void fit_codec(std::vector<LightmapPage>& pages, const BakeEncoding& encoding, StopFlag stop = {});
 
 }  // namespace lobelia

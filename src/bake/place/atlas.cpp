@@ -42,14 +42,16 @@ Status check(const World& world, const AtlasOptions& options) {
 
 }  // namespace
 
-Result<Atlas> Atlas::make(const World& world, const AtlasOptions& options) {
+Result<Atlas> Atlas::make(const World& world, const AtlasOptions& options, StopFlag stop) {
     if (auto status = check(world, options); !status) return status.error();
     Atlas atlas;
     atlas.world_ = &world;
+    atlas.stop_ = stop;
     atlas.width_ = options.width;
     atlas.height_ = options.height;
     if (auto status = atlas.find_placements(options); !status) return status.error();
-    atlas.charts_ = find_charts(world, k_no_chart);
+    atlas.charts_ = find_charts(world, k_no_chart, stop);
+    atlas.stop_ = {};
     return atlas;
 }
 
@@ -70,7 +72,7 @@ Status Atlas::place(const AtlasOptions& options, AtlasOptions::Layout layout) {
     if (layout == AtlasOptions::Layout::shared) {
         result = shared_layout(*world_, options);
     } else {
-        Result<ObjectPlacements> packed = packed_layout(*world_, options);
+        Result<ObjectPlacements> packed = packed_layout(*world_, options, stop_);
         if (!packed) return packed.error();
         result = std::move(*packed);
     }
@@ -114,6 +116,7 @@ Status Atlas::fill_tiles() {
     const std::size_t columns = tiles_along(width_), rows = tiles_along(height_), count = pages_ * columns * rows;
     constexpr int k_side = static_cast<int>(k_tile);
     const auto for_each_tile = [&](std::size_t t, const auto& visit) {
+        stop_.check();
         const AtlasPlacement& placement = placements_[world_->object[t]];
         if (!placement.baked) return;
         const PageTriangle triangle(texel_triangle(t));
@@ -161,6 +164,7 @@ bool Atlas::objects_overlap() const {
         constexpr std::uint32_t k_nobody = 0xffffffff;
         std::fill(owner.begin(), owner.end(), k_nobody);
         for (const std::uint32_t t : triangles_of_tile(tile)) {
+            stop_.check();
             const PageTriangle triangle(texel_triangle(t));
             const TexelBox part = box_of(t, triangle, box);
             for (int y = part.y0; y < part.y1; ++y)

@@ -24,8 +24,8 @@ struct CoveredTexel {
 class Atlas {
   public:
     /// The world must outlive the atlas. An error where an object does not fit a page, no object has lightmap UVs or
-    /// they overlap hundreds of times over (the messages name `lobelia unwrap`).
-    [[nodiscard]] static Result<Atlas> make(const World& world, const AtlasOptions& options);
+    /// they overlap hundreds of times over (the messages name `lobelia unwrap`). Throws Stopped.
+    [[nodiscard]] static Result<Atlas> make(const World& world, const AtlasOptions& options, StopFlag stop = {});
 
     [[nodiscard]] std::size_t width() const { return width_; }
     [[nodiscard]] std::size_t height() const { return height_; }
@@ -65,6 +65,7 @@ class Atlas {
     [[nodiscard]] bool objects_overlap() const;
 
     const World* world_ = nullptr;
+    StopFlag stop_;
     std::size_t width_ = 0, height_ = 0, pages_ = 0;
     AtlasOptions::Layout layout_ = AtlasOptions::Layout::shared;
     std::vector<AtlasPlacement> placements_;
@@ -81,7 +82,8 @@ struct TexelMap {
     std::vector<std::uint32_t> triangle;       ///< that owns each
     std::vector<std::uint32_t> first_of_tile;  ///< index of the first texel of each tile that has any, and the end
 };
-[[nodiscard]] TexelMap map_texels(const Atlas& atlas);
+/// Throws Stopped.
+[[nodiscard]] TexelMap map_texels(const Atlas& atlas, StopFlag stop = {});
 
 /// Share of a texel that a triangle must cover: less is what float32 UVs are off by on a large page.
 inline constexpr double k_least_cover = 1e-4;

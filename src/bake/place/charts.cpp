@@ -65,11 +65,12 @@ class Welder {
 
 }  // namespace
 
-std::vector<std::uint32_t> find_charts(const World& world, std::uint32_t none) {
+std::vector<std::uint32_t> find_charts(const World& world, std::uint32_t none, StopFlag stop) {
     // Unite the vertices of each triangle, and vertices with those that they repeat.
     DisjointSets sets(world.positions.size());
     Welder welder(world.positions.size());
     for (std::size_t t = 0; t < world.triangles.size(); ++t) {
+        stop.check();
         if (!world.has_lightmap_uv[world.object[t]]) continue;
         for (const std::uint32_t v : world.triangles[t]) {
             sets.unite(v, welder.first_like(v, key_of(world, world.object[t], v)));

@@ -58,13 +58,14 @@ class Grid {
 
 }  // namespace
 
-std::vector<std::uint32_t> weld_positions(const World& world, float tolerance) {
+std::vector<std::uint32_t> weld_positions(const World& world, float tolerance, StopFlag stop) {
     const auto count = static_cast<std::uint32_t>(world.positions.size());
     // Zero would be a grid without cells; a float near 1 is not finer than this.
     const float near = std::max(tolerance, 1e-8f);
     Grid grid(count, near);
     std::vector<std::uint32_t> welded(count);
     for (std::uint32_t v = 0; v < count; ++v) {
+        stop.check();
         const Vec3 p = world.positions[v];
         // Look into the eight cells that a cube of twice the tolerance may touch.
         std::uint32_t found = k_nobody;

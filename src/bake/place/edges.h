@@ -9,7 +9,8 @@
 namespace lobelia {
 
 /// For each vertex the first one that lies within `tolerance` [m] of it. Found by hashing, in linear time.
-[[nodiscard]] std::vector<std::uint32_t> weld_positions(const World& world, float tolerance);
+/// Throws Stopped.
+[[nodiscard]] std::vector<std::uint32_t> weld_positions(const World& world, float tolerance, StopFlag stop = {});
 
 /// Edge `side` (from corner `side` to the next) of a triangle; `low` and `high` are its welded ends.
 struct WorldEdge {

@@ -57,17 +57,26 @@ bool fits(const Extent& e, double scale, const AtlasOptions& options) {
            texels_for(e.y1 - e.y0, scale) <= static_cast<double>(options.height);
 }
 
-ObjectPlacements packed_at(const World& world, std::span<const Extent> extents, double texels_per_metre,
-                           const AtlasOptions& options) {
+/// The objects' rectangles at a density.
+std::vector<PackedRectangle> rectangles_at(std::span<const Extent> extents, double texels_per_metre) {
     std::vector<PackedRectangle> rectangles;
     for (const Extent& e : extents) {
         const double scale = scale_at(e, texels_per_metre);
         rectangles.push_back({.width = static_cast<int>(texels_for(e.x1 - e.x0, scale)),
                               .height = static_cast<int>(texels_for(e.y1 - e.y0, scale))});
     }
+    return rectangles;
+}
+
+PackOptions pack_options(const AtlasOptions& options, StopFlag stop) {
+    return {static_cast<int>(options.width), static_cast<int>(options.height), static_cast<int>(options.padding), stop};
+}
+
+ObjectPlacements packed_at(const World& world, std::span<const Extent> extents, double texels_per_metre,
+                           const PackOptions& options) {
+    std::vector<PackedRectangle> rectangles = rectangles_at(extents, texels_per_metre);
     ObjectPlacements result;
-    result.pages = pack_rectangles(rectangles, static_cast<int>(options.width), static_cast<int>(options.height),
-                                   static_cast<int>(options.padding));
+    result.pages = pack_rectangles(rectangles, options);
     result.placements.resize(world.has_lightmap_uv.size());
     for (std::size_t i = 0; i < extents.size(); ++i) {
         const Extent& e = extents[i];
@@ -84,7 +93,7 @@ ObjectPlacements packed_at(const World& world, std::span<const Extent> extents, 
 }
 
 /// The largest density, to about one in a thousand, at which all lie on one page.
-double density_for_one_page(const World& world, std::span<const Extent> extents, const AtlasOptions& options) {
+double density_for_one_page(std::span<const Extent> extents, const AtlasOptions& options, StopFlag stop) {
     // Begin where a page of nothing but rectangles would end.
     double area = 0;
     for (const Extent& e : extents) area += e.metres_per_uv * e.metres_per_uv * (e.x1 - e.x0) * (e.y1 - e.y0);
@@ -94,7 +103,7 @@ double density_for_one_page(const World& world, std::span<const Extent> extents,
         const double middle = low > 0 ? (low + high) / 2 : high / 2;
         const bool one_page = std::all_of(extents.begin(), extents.end(),
                                           [&](const Extent& e) { return fits(e, scale_at(e, middle), options); }) &&
-                              packed_at(world, extents, middle, options).pages == 1;
+                              fits_one_page(rectangles_at(extents, middle), pack_options(options, stop));
         (one_page ? low : high) = middle;
     }
     return low > 0 ? low : high;
@@ -114,12 +123,14 @@ ObjectPlacements shared_layout(const World& world, const AtlasOptions& options) 
     return result;
 }
 
-Result<ObjectPlacements> packed_layout(const World& world, const AtlasOptions& options) {
+Result<ObjectPlacements> packed_layout(const World& world, const AtlasOptions& options, StopFlag stop) {
     std::vector<Extent> extents;
-    for (std::uint32_t i = 0; i < world.has_lightmap_uv.size(); ++i)
+    for (std::uint32_t i = 0; i < world.has_lightmap_uv.size(); ++i) {
+        stop.check();
         if (world.has_lightmap_uv[i] != 0) extents.push_back(extent_of(world, i));
+    }
     const double density =
-        options.texels_per_metre ? *options.texels_per_metre : density_for_one_page(world, extents, options);
+        options.texels_per_metre ? *options.texels_per_metre : density_for_one_page(extents, options, stop);
     for (const Extent& e : extents)
         if (const double scale = scale_at(e, density); !fits(e, scale, options))
             return Error{fmt::format(
@@ -127,7 +138,7 @@ Result<ObjectPlacements> packed_layout(const World& world, const AtlasOptions& o
                 "larger pages or fewer texels per metre",
                 world.name_of(e.object), texels_for(e.x1 - e.x0, scale), texels_for(e.y1 - e.y0, scale), density,
                 options.width, options.height)};
-    return packed_at(world, extents, density, options);
+    return packed_at(world, extents, density, pack_options(options, stop));
 }
 
 }  // namespace lobelia

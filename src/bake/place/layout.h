@@ -13,7 +13,8 @@ struct ObjectPlacements {
 
 /// The whole page for all.
 [[nodiscard]] ObjectPlacements shared_layout(const World& world, const AtlasOptions& options);
-/// A rectangle for each. An error names the object that does not fit a page.
-[[nodiscard]] Result<ObjectPlacements> packed_layout(const World& world, const AtlasOptions& options);
+/// A rectangle for each. An error names the object that does not fit a page. Throws Stopped.
+[[nodiscard]] Result<ObjectPlacements> packed_layout(const World& world, const AtlasOptions& options,
+                                                     StopFlag stop = {});
 
 }  // namespace lobelia

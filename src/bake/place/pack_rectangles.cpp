@@ -29,20 +29,46 @@ void sort_stably(T* begin, int count, std::size_t, const Compare& compare) {
 
 namespace lobelia {
 
-std::size_t pack_rectangles(std::span<PackedRectangle> rectangles, int width, int height, int padding) {
-    std::vector<stbrp_rect> left;
-    for (std::size_t i = 0; i < rectangles.size(); ++i) {
-        assert(rectangles[i].width <= width && rectangles[i].height <= height);
-        left.push_back({static_cast<int>(i), rectangles[i].width + padding, rectangles[i].height + padding, 0, 0, 0});
-    }
+namespace {
 
-    // Fill one page after another; the padding beyond the last rectangle of a row may hang over.
-    std::vector<stbrp_node> nodes(static_cast<std::size_t>(width) + static_cast<std::size_t>(padding));
+std::vector<stbrp_rect> padded(std::span<const PackedRectangle> rectangles, const PackOptions& options) {
+    std::vector<stbrp_rect> result;
+    for (std::size_t i = 0; i < rectangles.size(); ++i) {
+        assert(rectangles[i].width <= options.width && rectangles[i].height <= options.height);
+        result.push_back({static_cast<int>(i), rectangles[i].width + options.padding,
+                          rectangles[i].height + options.padding, 0, 0, 0});
+    }
+    return result;
+}
+
+/// Packs as many as fit one page; the padding beyond the last rectangle of a row may hang over.
+void fill_page(std::vector<stbrp_rect>& rectangles, const PackOptions& options) {
+    options.stop.check();
+    const int width = options.width + options.padding, height = options.height + options.padding;
+    std::vector<stbrp_node> nodes(static_cast<std::size_t>(width));
+    stbrp_context context;
+    stbrp_init_target(&context, width, height, nodes.data(), width);
+    stbrp_pack_rects(&context, rectangles.data(), static_cast<int>(rectangles.size()));
+}
+
+}  // namespace
+
+bool fits_one_page(std::span<const PackedRectangle> rectangles, const PackOptions& options) {
+    // More than the area of a page need not be tried.
+    double area = 0;
+    for (const PackedRectangle& r : rectangles)
+        area += static_cast<double>(r.width + options.padding) * (r.height + options.padding);
+    if (area > static_cast<double>(options.width + options.padding) * (options.height + options.padding)) return false;
+    std::vector<stbrp_rect> packed = padded(rectangles, options);
+    fill_page(packed, options);
+    return std::all_of(packed.begin(), packed.end(), [](const stbrp_rect& r) { return r.was_packed != 0; });
+}
+
+std::size_t pack_rectangles(std::span<PackedRectangle> rectangles, const PackOptions& options) {
+    std::vector<stbrp_rect> left = padded(rectangles, options);
     std::uint32_t page = 0;
     for (; !left.empty(); ++page) {
-        stbrp_context context;
-        stbrp_init_target(&context, width + padding, height + padding, nodes.data(), static_cast<int>(nodes.size()));
-        stbrp_pack_rects(&context, left.data(), static_cast<int>(left.size()));
+        fill_page(left, options);
         for (const stbrp_rect& placed : left)
             if (placed.was_packed) {
                 PackedRectangle& rectangle = rectangles[static_cast<std::size_t>(placed.id)];

@@ -5,6 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "core/stop.h"
+
 namespace lobelia {
 
 /// A rectangle and where it went.
@@ -14,8 +16,16 @@ struct PackedRectangle {
     std::uint32_t page = 0;
 };
 
-/// Places all rectangles on pages of width x height, at least `padding` apart, and returns the number of pages. Each
-/// rectangle fits a page (asserted). The same on every platform.
-std::size_t pack_rectangles(std::span<PackedRectangle> rectangles, int width, int height, int padding);
+struct PackOptions {
+    int width = 0, height = 0;  ///< of each page
+    int padding = 0;            ///< least distance between rectangles
+    StopFlag stop = {};         ///< asked for each page; Stopped is thrown
+};
+
+/// Places all rectangles on pages and returns the number of pages. Each rectangle fits a page (asserted). The same on
+/// every platform.
+std::size_t pack_rectangles(std::span<PackedRectangle> rectangles, const PackOptions& options);
+/// Tells whether pack_rectangles takes one page, without packing a second one.
+[[nodiscard]] bool fits_one_page(std::span<const PackedRectangle> rectangles, const PackOptions& options);
 
 }  // namespace lobelia

@@ -162,10 +162,14 @@ EdgePiece whole_piece(const World& world, const std::vector<std::uint32_t>& weld
     return {edge.low, edge.high, edge.triangle, edge.side, starts_low ? 0.0f : 1.0f, starts_low ? 1.0f : 0.0f};
 }
 
-std::vector<EdgePiece> split_edges(const World& world, std::span<const EdgePiece> pieces, float tolerance) {
+std::vector<EdgePiece> split_edges(const World& world, std::span<const EdgePiece> pieces, float tolerance,
+                                   StopFlag stop) {
     std::vector<EdgePiece> result;
     Splitter splitter(world, pieces, tolerance);
-    for (const EdgePiece& piece : pieces) splitter.split(piece, result);
+    for (const EdgePiece& piece : pieces) {
+        stop.check();
+        splitter.split(piece, result);
+    }
     std::sort(result.begin(), result.end(), [](const EdgePiece& a, const EdgePiece& b) {
         return std::tie(a.low, a.high, a.triangle, a.side, a.at_low) <
                std::tie(b.low, b.high, b.triangle, b.side, b.at_low);

@@ -23,8 +23,8 @@ struct EdgePiece {
 
 /// Cuts whole pieces at each end of another one that lies within `tolerance` [m] of their inside. The order is that of
 /// sorted_edges. Time and memory are linear in the number of pieces for meshes as people make them, and bounded for
-/// any: what lies in the way of thousands stays uncut.
-[[nodiscard]] std::vector<EdgePiece> split_edges(const World& world, std::span<const EdgePiece> pieces,
-                                                 float tolerance);
+/// any: what lies in the way of thousands stays uncut. Throws Stopped.
+[[nodiscard]] std::vector<EdgePiece> split_edges(const World& world, std::span<const EdgePiece> pieces, float tolerance,
+                                                 StopFlag stop = {});
 
 }  // namespace lobelia

@@ -73,7 +73,7 @@ void for_each_owned(const Atlas& atlas, std::size_t tile, const Visit& visit) {
 
 }  // namespace
 
-TexelMap map_texels(const Atlas& atlas) {
+TexelMap map_texels(const Atlas& atlas, StopFlag stop) {
     // Tiles in groups, each with its own list; the lists are joined in order.
     constexpr std::size_t k_group = 16;
     const std::size_t groups = (atlas.tiles() + k_group - 1) / k_group;
@@ -81,6 +81,7 @@ TexelMap map_texels(const Atlas& atlas) {
     tbb::parallel_for(std::size_t{0}, groups, [&](std::size_t g) {
         TexelMap& part = parts[g];
         for (std::size_t tile = g * k_group; tile < std::min((g + 1) * k_group, atlas.tiles()); ++tile) {
+            stop.check();
             const auto begin = static_cast<std::uint32_t>(part.texels.size());
             for_each_owned(atlas, tile, [&](int x, int y, std::uint32_t owner) {
                 part.texels.push_back(

@@ -123,10 +123,11 @@ void make_receivers(const Atlas& atlas, const TexelMap& map, std::size_t begin, 
 }
 
 std::vector<std::vector<std::uint8_t>> displaced_texels(const Atlas& atlas, const TexelMap& map,
-                                                        const PathTracer& tracer) {
+                                                        const PathTracer& tracer, StopFlag stop) {
     std::vector<std::vector<std::uint8_t>> displaced(atlas.pages(),
                                                      std::vector<std::uint8_t>(atlas.width() * atlas.height()));
     tbb::parallel_for(std::size_t{1}, map.first_of_tile.size(), [&](std::size_t tile) {
+        stop.check();
         std::vector<Receiver> receivers;
         const std::size_t begin = map.first_of_tile[tile - 1];
         make_receivers(atlas, map, begin, map.first_of_tile[tile], tracer, Switch::on, receivers);

@@ -16,9 +16,9 @@ namespace lobelia {
 void make_receivers(const Atlas& atlas, const TexelMap& map, std::size_t begin, std::size_t end,
                     const PathTracer& tracer, Switch push_out, std::vector<Receiver>& out);
 
-/// Marks texels that were pushed out or are buried: 1 for each of them, page by page, row by row.
+/// Marks texels that were pushed out or are buried: 1 for each of them, page by page, row by row. Throws Stopped.
 [[nodiscard]] std::vector<std::vector<std::uint8_t>> displaced_texels(const Atlas& atlas, const TexelMap& map,
-                                                                      const PathTracer& tracer);
+                                                                      const PathTracer& tracer, StopFlag stop = {});
 
 /// The surface at the centre of texel i of the map, or at the covered point nearest to it.
 struct TexelSurface {

@@ -20,7 +20,7 @@ using Pair = std::pair<std::uint32_t, std::uint32_t>;
 using PairCounts = std::map<Pair, std::size_t>;
 
 /// Marks texels whose centres two triangles cover, and counts them by object; each texel once.
-void find_overlaps(const Atlas& atlas, Preflight& result) {
+void find_overlaps(const Atlas& atlas, StopFlag stop, Preflight& result) {
     // The margin excludes triangles that share an edge. The points lie a little beside the centres, because edges and
     // diagonals often run through those.
     constexpr double k_margin = 1e-3, k_x = 0.503, k_y = 0.508;
@@ -31,7 +31,11 @@ void find_overlaps(const Atlas& atlas, Preflight& result) {
         const TexelBox box = atlas.box_of_tile(tile);
         std::array<std::uint32_t, k_tile * k_tile> first;
         first.fill(k_nobody);
+        std::size_t left = static_cast<std::size_t>(box.x1 - box.x0) * static_cast<std::size_t>(box.y1 - box.y0);
         for (const std::uint32_t t : atlas.triangles_of_tile(tile)) {
+            // Where all texels are marked, the rest of the triangles change nothing.
+            if (left == 0) return;
+            stop.check();
             const PageTriangle triangle(atlas.texel_triangle(t));
             const TexelBox part = atlas.box_of(t, triangle, box);
             for (int y = part.y0; y < part.y1; ++y)
@@ -41,6 +45,7 @@ void find_overlaps(const Atlas& atlas, Preflight& result) {
                     std::uint32_t& other = first[static_cast<std::size_t>(y - box.y0) * k_tile + (x - box.x0)];
                     if (other != k_nobody) {
                         mark = TexelMark::overlap;
+                        --left;
                         ++counts.local()[std::minmax(world.object[other], world.object[t])];
                     } else {
                         other = t;
@@ -77,13 +82,14 @@ std::optional<std::size_t> free_texels(const std::vector<std::uint32_t>& charts,
 }
 
 /// Marks covered texels, and those too near to another chart.
-void find_tight(const Atlas& atlas, const TexelMap& map, Preflight& result) {
+void find_tight(const Atlas& atlas, const TexelMap& map, StopFlag stop, Preflight& result) {
     const auto place = [&](std::size_t i) { return map.texels[i].y * atlas.width() + map.texels[i].x; };
     for (std::size_t i = 0; i < map.texels.size(); ++i)
         result.pages[map.texels[i].page].chart[place(i)] = atlas.chart_of_triangle()[map.triangle[i]] + 1;
 
     tbb::combinable<std::optional<std::size_t>> least;
     tbb::parallel_for(std::size_t{0}, map.texels.size(), [&](std::size_t i) {
+        stop.check();
         Preflight::PageMarks& page = result.pages[map.texels[i].page];
         TexelMark& mark = page.mark[place(i)];
         const auto found = free_texels(page.chart, atlas.width(), atlas.height(), place(i), result.padding);
@@ -129,10 +135,11 @@ bool is_outside(const World& world, std::size_t t) {
     });
 }
 
-void check_triangles(const Atlas& atlas, Preflight& result) {
+void check_triangles(const Atlas& atlas, StopFlag stop, Preflight& result) {
     const World& world = atlas.world();
     std::vector<double> mapped(result.objects.size());
     for (std::size_t t = 0; t < world.triangles.size(); ++t) {
+        stop.check();
         Preflight::OfObject& object = result.objects[world.object[t]];
         ++object.triangles;
         const bool degenerate = is_degenerate(world, t);
@@ -148,7 +155,7 @@ void check_triangles(const Atlas& atlas, Preflight& result) {
             result.objects[i].texels_per_metre = std::sqrt(mapped[i] / result.objects[i].area);
 
     // Sorting puts edges at one place next to each other, and there those of one object.
-    const std::vector<WorldEdge> edges = sorted_edges(world, weld_positions(world, 0));
+    const std::vector<WorldEdge> edges = sorted_edges(world, weld_positions(world, 0, stop));
     for (std::size_t begin = 0, end; begin < edges.size(); begin = end) {
         const std::uint32_t object = world.object[edges[begin].triangle];
         for (end = begin + 1;
@@ -158,12 +165,13 @@ void check_triangles(const Atlas& atlas, Preflight& result) {
     }
 }
 
-Preflight::Density density_of(const Atlas& atlas) {
+Preflight::Density density_of(const Atlas& atlas, StopFlag stop) {
     // Densities of all triangles with the areas that have them.
     const World& world = atlas.world();
     std::vector<std::pair<double, double>> found;
     double area = 0;
     for (std::size_t t = 0; t < world.triangles.size(); ++t) {
+        stop.check();
         if (!atlas.placements()[world.object[t]].baked || is_degenerate(world, t)) continue;
         const double in_world = world_area(world, t), on_page = texel_area(atlas, t);
         if (!(on_page > 0 && in_world > 0) || !std::isfinite(on_page / in_world)) continue;
@@ -198,6 +206,7 @@ Preflight::Density density_of(const Atlas& atlas) {
 BakeMemory bake_memory(const Atlas& atlas, const TexelMap& map, std::size_t state_bytes, std::size_t channels) {
     const std::size_t of_page = atlas.width() * atlas.height();
     BakeMemory result;
+    result.scene = atlas.world().triangles.size() * k_bytes_per_triangle;
     result.states = map.texels.size() * state_bytes;
     result.pages = atlas.pages() * of_page * (channels * sizeof(float) + sizeof(std::uint32_t) + sizeof(float));
     result.texels = map.texels.size() * (sizeof(CoveredTexel) + sizeof(std::uint32_t));
@@ -227,10 +236,10 @@ Preflight preflight(const Atlas& atlas, const TexelMap& map, const PreflightOpti
     const std::size_t texels_of_page = atlas.width() * atlas.height();
     result.pages.assign(atlas.pages(), {std::vector<TexelMark>(texels_of_page, TexelMark::empty),
                                         std::vector<std::uint32_t>(texels_of_page)});
-    find_overlaps(atlas, result);
-    find_tight(atlas, map, result);
-    check_triangles(atlas, result);
-    result.density = density_of(atlas);
+    find_overlaps(atlas, options.stop, result);
+    find_tight(atlas, map, options.stop, result);
+    check_triangles(atlas, options.stop, result);
+    result.density = density_of(atlas, options.stop);
     result.memory = bake_memory(atlas, map, options.state_bytes, options.channels);
     if (options.rate && options.rate->rays_per_second > 0)
         result.seconds = static_cast<double>(result.texels) * options.samples * options.rate->rays_per_sample /
@@ -238,8 +247,9 @@ Preflight preflight(const Atlas& atlas, const TexelMap& map, const PreflightOpti
     return result;
 }
 
-Preflight preflight(const BakeSetup& setup, std::optional<RayRate> rate) {
+Preflight preflight(const BakeSetup& setup, StopFlag stop, std::optional<RayRate> rate) {
     PreflightOptions options;
+    options.stop = stop;
     options.state_bytes = setup.layout.bytes();
     options.channels = setup.encoding.page_channels().count();
     options.samples = setup.options.samples;

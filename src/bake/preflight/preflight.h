@@ -21,11 +21,12 @@ struct PreflightOptions {
     std::size_t channels = 0;     ///< planes of each page
     std::uint32_t samples = 256;  ///< per texel
     std::optional<RayRate> rate;  ///< absent: no estimate of the time
+    StopFlag stop = {};           ///< Stopped is thrown
 };
 [[nodiscard]] Preflight preflight(const Atlas& atlas, const TexelMap& map, const PreflightOptions& options = {});
 
 /// The same for a bake's setup.
-[[nodiscard]] Preflight preflight(const BakeSetup& setup, std::optional<RayRate> rate = {});
+[[nodiscard]] Preflight preflight(const BakeSetup& setup, StopFlag stop = {}, std::optional<RayRate> rate = {});
 
 /// Draws a page: each chart in a colour of its own, overlaps red, texels too close to another chart orange, free texels
 /// dark. No side is longer than `most_side`; a pixel of several texels shows the most severe mark.

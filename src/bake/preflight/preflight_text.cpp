@@ -135,9 +135,13 @@ std::string to_text(const Preflight& p, const Scene& scene) {
     if (!p.density.share.empty())
         text += fmt::format("texels per metre: {:.4g} to {:.4g}, median {:.4g} (share of the area)\n{}",
                             p.density.least, p.density.most, p.density.median, histogram(p.density));
-    text +=
-        fmt::format("memory: {} (states {}, pages {}, texels {}, finishing {})\n", bytes(p.memory.total()),
-                    bytes(p.memory.states), bytes(p.memory.pages), bytes(p.memory.texels), bytes(p.memory.finishing));
+    std::size_t triangles = 0;
+    for (const Preflight::OfObject& object : p.objects) triangles += object.triangles;
+    text += fmt::format("scene: {}, {}\n", counted(p.objects.size(), "object"), counted(triangles, "triangle"));
+    const BakeMemory& memory = p.memory;
+    text += fmt::format("memory: {} (scene {}, states {}, pages {}, texels {}, finishing {})\n", bytes(memory.total()),
+                        bytes(memory.scene), bytes(memory.states), bytes(memory.pages), bytes(memory.texels),
+                        bytes(memory.finishing));
     if (p.seconds) text += fmt::format("time: about {}\n", duration(*p.seconds));
     for (const std::string& warning : warnings(p, scene)) text += "warning: " + warning + '\n';
     return text;

@@ -79,8 +79,10 @@ class ProbeBaker {
             std::vector<Place> divided;
             if (level < options_.levels) {
                 if (auto status = bake(middles(cells, size), level + 1); !status) return status;
-                for (const Place& cell : cells)
+                for (const Place& cell : cells) {
+                    StopFlag(session_.stop).check();
                     if (error_in(cell, size) > options_.tolerance) divided.push_back(cell);
+                }
             }
             keep_cells(cells, divided, size);
             if (divided.empty()) break;
@@ -123,7 +125,6 @@ class ProbeBaker {
     }
 
     [[nodiscard]] Status bake(std::span<const Place> wanted, int level);
-    [[nodiscard]] bool stopped() const { return session_.stop != nullptr && session_.stop->load(); }
     void bake_one(std::size_t probe, PassWorker& worker);
     [[nodiscard]] std::optional<Vec3> way_out(Vec3 position, float reach) const;
     [[nodiscard]] Vec3 pushed_out(Vec3 position) const;
@@ -194,6 +195,7 @@ void ProbeBaker::bake_one(std::size_t probe, PassWorker& worker) {
     std::vector<float> state(layout_.floats());
     PassOptions pass;
     for (std::uint32_t s = 0; s < options_.samples; s += k_samples_per_pass) {
+        StopFlag(session_.stop).check();
         pass.samples = {s, k_samples_per_pass};
         worker.run({&receiver, 1}, layout_, codec_.encoder().get(), state, pass);
     }
@@ -225,7 +227,7 @@ Status ProbeBaker::bake(std::span<const Place> wanted, int level) {
     std::atomic<std::size_t> done = 0;
     std::mutex mutex;
     tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
-        if (stopped()) return;
+        StopFlag(session_.stop).check();
         bake_one(first + i, workers.local());
         ++done;
         if (!session_.progress || !mutex.try_lock()) return;
@@ -237,7 +239,6 @@ Status ProbeBaker::bake(std::span<const Place> wanted, int level) {
         session_.progress(is);
         mutex.unlock();
     });
-    if (stopped()) return Error{"stopped"};
     return Done{};
 }
 

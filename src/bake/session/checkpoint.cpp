@@ -55,7 +55,9 @@ Status RegionStates::write(const std::filesystem::path& path) {
 
 Result<RegionStates> RegionStates::read(const std::filesystem::path& path) {
     const auto bad = [&](std::string_view what) { return Error{fmt::format("{}: {}", path.string(), what)}; };
-    const auto file = InputFile::open(path);
+    // Only the bake's folder is what the user named.
+    const auto folder = path.parent_path();
+    const auto file = InputFile::open_below(folder.parent_path(), folder.filename() / path.filename());
     if (!file) return file.error();
 
     // Read the header first: allocate nothing for a file that is not a checkpoint.

@@ -122,7 +122,8 @@ class Merger {
 
 }  // namespace
 
-Status merge_shards(const BakeSetup& bake, std::span<const fs::path> shards, const fs::path& checkpoint) {
+Status merge_shards(const BakeSetup& bake, std::span<const fs::path> shards, const fs::path& checkpoint,
+                    StopFlag stop) {
     const auto files = region_files(shards);
     if (!files) return files.error();
     std::error_code code;
@@ -134,7 +135,7 @@ Status merge_shards(const BakeSetup& bake, std::span<const fs::path> shards, con
     Merger merger(bake, checkpoint);
     Status status = Done{};
     for (std::size_t region = 0; region < bake.plan.regions.size() && status; ++region)
-        status = merger.merge_region(region, *files);
+        status = stop.is_set() ? stopped_error() : merger.merge_region(region, *files);
     if (status) {
         folder->keep();
         return status;

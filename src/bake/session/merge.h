@@ -11,6 +11,6 @@ namespace lobelia {
 /// are copied bit by bit; sums of samples are added in the order given. An error if a shard is missing, given twice,
 /// unfinished or of another bake; then nothing is left behind.
 [[nodiscard]] Status merge_shards(const BakeSetup& bake, std::span<const std::filesystem::path> shards,
-                                  const std::filesystem::path& checkpoint);
+                                  const std::filesystem::path& checkpoint, StopFlag stop = {});
 
 }  // namespace lobelia

@@ -16,13 +16,14 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-std::vector<Receiver> receivers_of(const BakeSetup& setup, std::span<const std::uint32_t> texels) {
+std::vector<Receiver> receivers_of(const BakeSetup& setup, std::span<const std::uint32_t> texels, StopFlag stop) {
     std::vector<Receiver> receivers(texels.size());
     constexpr std::size_t grain = 1024;
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, texels.size(), grain), [&](const auto& range) {
         // Make runs of consecutive texels at once.
         std::vector<Receiver> made;
         for (std::size_t i = range.begin(); i < range.end();) {
+            stop.check();
             std::size_t end = i + 1;
             while (end < range.end() && texels[end] == texels[end - 1] + 1) ++end;
             make_receivers(setup.atlas, setup.map, texels[i], texels[end - 1] + 1, *setup.tracer,
@@ -67,7 +68,7 @@ Result<GatheredRegion> RegionGatherer::gather(std::size_t number) {
     RegionHeader& header = region.states.header;
     const TileRange range = plan.regions[number];
     tiles_done_ += std::uint64_t{header.end_pass - plan.first_pass} * (range.end - range.first);
-    region.receivers = receivers_of(setup_, region.texels);
+    region.receivers = receivers_of(setup_, region.texels, session_.stop);
 
     // Run the missing passes while this region's part of the time limit lasts, and keep each.
     const std::vector<std::uint32_t> first_of_tile = tile_starts(setup_, range);

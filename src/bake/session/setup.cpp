@@ -11,19 +11,19 @@ namespace {
 
 /// Makes the plan: pages and the scene are always in memory, states and receivers as far as they fit.
 Result<BakePlan> plan_of(const BakeSetup& setup) {
-    // Scene, world, Embree's tree and shading data: about 500 bytes per triangle, measured on a million triangles.
-    constexpr std::size_t bytes_per_triangle = 600, bytes_of_program = 64 << 20;
+    constexpr std::size_t bytes_of_program = 64 << 20;
     const std::size_t texels = setup.atlas.width() * setup.atlas.height() * setup.atlas.pages();
     const std::size_t always =
         texels * (setup.encoding.page_channels().count() * sizeof(float) + 2 * sizeof(std::uint32_t)) +
         setup.map.texels.size() * (sizeof(CoveredTexel) + sizeof(std::uint32_t)) +
-        setup.world.triangles.size() * bytes_per_triangle + bytes_of_program;
+        setup.world.triangles.size() * k_bytes_per_triangle + bytes_of_program;
     return make_plan(setup.map, setup.options, setup.layout.bytes() + sizeof(Receiver) + sizeof(std::uint32_t), always);
 }
 
 }  // namespace
 
-Result<std::unique_ptr<const BakeSetup>> BakeSetup::make(const Scene& scene, const BakeOptions& options) {
+Result<std::unique_ptr<const BakeSetup>> BakeSetup::make(const Scene& scene, const BakeOptions& options,
+                                                         StopFlag stop) {
     auto setup = std::make_unique<BakeSetup>();
     setup->scene = &scene;
     setup->options = options;
@@ -33,11 +33,11 @@ Result<std::unique_ptr<const BakeSetup>> BakeSetup::make(const Scene& scene, con
     setup->layout = setup->encoding.states();
 
     // Lay objects out on pages, and find the texels that they cover.
-    setup->world = make_world(scene);
-    auto atlas = Atlas::make(setup->world, options.atlas);
+    setup->world = make_world(scene, stop);
+    auto atlas = Atlas::make(setup->world, options.atlas, stop);
     if (!atlas) return atlas.error();
     setup->atlas = *std::move(atlas);
-    setup->map = map_texels(setup->atlas);
+    setup->map = map_texels(setup->atlas, stop);
     if (options.only_object) {
         const auto object = find_object(setup->world, *options.only_object);
         if (!object) return object.error();
@@ -51,7 +51,7 @@ Result<std::unique_ptr<const BakeSetup>> BakeSetup::make(const Scene& scene, con
     if (!plan) return plan.error();
     setup->plan = *std::move(plan);
     setup->hash = state_hash(scene, options);
-    setup->tracer = std::make_unique<PathTracer>(scene, setup->world, options.paths);
+    setup->tracer = std::make_unique<PathTracer>(scene, setup->world, options.paths, stop);
     return std::unique_ptr<const BakeSetup>(std::move(setup));
 }
 

@@ -22,7 +22,9 @@ struct BakeSetup {
     std::unique_ptr<PathTracer> tracer;
 
     /// Lays out the atlas and checks that codec, memory and options are compatible. The scene must outlive the setup.
-    [[nodiscard]] static Result<std::unique_ptr<const BakeSetup>> make(const Scene& scene, const BakeOptions& options);
+    /// Throws Stopped.
+    [[nodiscard]] static Result<std::unique_ptr<const BakeSetup>> make(const Scene& scene, const BakeOptions& options,
+                                                                       StopFlag stop = {});
 };
 
 /// Returns a hash of all that encoder states depend on: scene, codec, atlas, paths; not the number of samples.

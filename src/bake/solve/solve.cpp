@@ -121,6 +121,7 @@ void solve_onto(std::span<LightmapPage> pages, const Atlas& atlas, const TexelMa
         TexelSolver solver(encoding);
         for (std::size_t k = range.begin(); k < range.end(); ++k) {
             // Solve for the texel, and put it onto its page.
+            solved.stop.check();
             const auto state = solved.states.subspan(k * layout.floats(), layout.floats());
             const Receiver& receiver = solved.receivers[k];
             const ReceiverSummary is = summary(layout.record(state), samples_per_pass);

@@ -24,6 +24,7 @@ struct SolveTexels {
     std::span<const std::uint32_t> texels;
     std::span<const Receiver> receivers;
     std::span<const float> states;
+    StopFlag stop = {};  ///< asked for each texel; Stopped is thrown
 };
 
 /// Puts texels onto their pages and adds to the totals. The same bits for any number of threads.

@@ -101,7 +101,7 @@ Result<Manifest> write_bake(const fs::path& folder, const Bake& bake, const Writ
     assert(bake.pages.size() == bake.normals.size());
     const auto textures = PageTextures::make(bake.manifest.options.codec, options.storages);
     if (!textures) return textures.error();
-    auto files = FilesTogether::in(folder);
+    auto files = FilesTogether::in(folder, options.stop);
     if (!files) return files.error();
     Manifest manifest = bake.manifest;
     auto status = choose_precision(bake, manifest);

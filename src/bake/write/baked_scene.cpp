@@ -16,10 +16,14 @@ Result<LoadedScene> read_baked_scene(const std::filesystem::path& path, const Ma
     const std::filesystem::path folder = bake_folder(path);
     SceneSource source = light;
     source.uv_set = SceneSource().uv_set;
-    if (!source.environment && manifest.environment) source.environment = (folder / *manifest.environment).string();
+    auto links = InputOptions::Links::followed;
+    if (!source.environment && manifest.environment) {
+        source.environment = (folder / *manifest.environment).string();
+        links = InputOptions::Links::refused;
+    }
     if (manifest.scene) {
         source.path = (folder / *manifest.scene).string();
-        return load_scene(source);
+        return load_scene_copy(source, links);
     }
 
     // Without a copy, the scene's name may be that of an embedded scene, never that of a file.
@@ -29,7 +33,7 @@ Result<LoadedScene> read_baked_scene(const std::filesystem::path& path, const Ma
                                  path.string(), manifest.scene_name)};
     LoadedScene loaded;
     loaded.scene = *std::move(scene);
-    if (auto status = set_environment(loaded, source); !status) return status.error();
+    if (auto status = set_environment(loaded, source, links); !status) return status.error();
     return loaded;
 }
 

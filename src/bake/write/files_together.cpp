@@ -3,10 +3,10 @@
 
 namespace lobelia {
 
-Result<FilesTogether> FilesTogether::in(const std::filesystem::path& folder) {
+Result<FilesTogether> FilesTogether::in(const std::filesystem::path& folder, StopFlag stop) {
     auto made = MadeFolder::make(folder);
     if (!made) return made.error();
-    return FilesTogether(folder, *std::move(made));
+    return FilesTogether(folder, *std::move(made), stop);
 }
 
 Status FilesTogether::add_text(const std::string& name, std::string_view text) {

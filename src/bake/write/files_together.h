@@ -14,12 +14,13 @@ namespace lobelia {
 class FilesTogether {
   public:
     /// Makes the folder if it is missing.
-    [[nodiscard]] static Result<FilesTogether> in(const std::filesystem::path& folder);
+    /// No file is written on once `stop` becomes true: that is an error.
+    [[nodiscard]] static Result<FilesTogether> in(const std::filesystem::path& folder, StopFlag stop = {});
 
     /// Adds a file that `write(StagedFile&)` fills; `write` returns a Status.
     template <class Write>
     [[nodiscard]] Status add(const std::string& name, const Write& write) {
-        auto file = StagedFile::create(folder_ / name);
+        auto file = StagedFile::create(folder_ / name, stop_);
         if (!file) return file.error();
         if (Status status = write(*file); !status) return status;
         if (Status status = file->flush(); !status) return status;
@@ -30,15 +31,18 @@ class FilesTogether {
         files_.push_back(*std::move(file));
         return Done{};
     }
+    [[nodiscard]] StopFlag stop() const { return stop_; }
     [[nodiscard]] Status add_text(const std::string& name, std::string_view text);
     /// Puts the files in place, in the order in which they were added.
     [[nodiscard]] Status commit();
 
   private:
-    FilesTogether(std::filesystem::path folder, MadeFolder made) : folder_(std::move(folder)), made_(std::move(made)) {}
+    FilesTogether(std::filesystem::path folder, MadeFolder made, StopFlag stop)
+        : folder_(std::move(folder)), made_(std::move(made)), stop_(stop) {}
 
     std::filesystem::path folder_;
     MadeFolder made_;  ///< before the files: they are removed first
+    StopFlag stop_;
     std::vector<StagedFile> files_;
 };
 

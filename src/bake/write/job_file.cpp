@@ -60,6 +60,7 @@ void fields(auto& archive, SceneSource& scene) {
     archive.number("sun_elevation", scene.sun_elevation);
     archive.number("sun_azimuth", scene.sun_azimuth);
     archive.number("turbidity", scene.turbidity);
+    archive.whole("scene_memory", scene.scene_memory, 0, k_any_u64);
 }
 
 void fields(auto& archive, FinishOptions& steps) {
@@ -106,7 +107,10 @@ Result<BakeJob> read_job(const std::filesystem::path& folder) {
     std::error_code code;
     if (!std::filesystem::exists(path, code))
         return Error{folder.string() + ": holds no bake to continue: " + path + " does not exist"};
-    const auto text = read_text(path, 1);
+    constexpr std::uint64_t k_most_bytes = std::uint64_t{1} << 20;
+    const auto file = InputFile::open_below(folder, job_file(checkpoint_folder({})), k_most_bytes);
+    if (!file) return file.error();
+    const auto text = read_text(*file);
     if (!text) return text.error();
     return read_json(*text, path, [&](const JsonPlace& top) {
         if (top.at("lobelia_bake_job").whole(0, k_any_u64) != k_version)

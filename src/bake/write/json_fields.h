@@ -19,6 +19,10 @@ class JsonFieldWriter {
     void whole(const char* name, const T& value, std::uint64_t /*least*/, std::uint64_t /*most*/) {
         object[name] = value;
     }
+    template <class T>
+    void whole(const char* name, const std::optional<T>& value, std::uint64_t /*least*/, std::uint64_t /*most*/) {
+        object[name] = value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json();
+    }
     void number(const char* name, const double& value) { object[name] = value; }
     void number(const char* name, const std::optional<double>& value) {
         object[name] = value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json();

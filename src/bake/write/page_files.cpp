@@ -71,7 +71,9 @@ Result<PageContent> read_page(const std::filesystem::path& path, const PageChann
                               std::size_t height) {
     // Read what should be there.
     ReadChannelsOptions options{.wanted = page_channel_names(channels), .most_pixels = width * height};
-    auto file = read_exr_channels(path, options);
+    auto opened = InputFile::open(path, within_folder());
+    if (!opened) return opened.error();
+    auto file = read_exr_channels(*std::move(opened), options);
     if (!file) return file.error();
     if (file->width != width || file->height != height)
         return Error{fmt::format("{}: {} x {} texels, but the manifest says {} x {}", path.string(), file->width,

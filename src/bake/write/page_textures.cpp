@@ -73,7 +73,8 @@ Status PageTextures::add(FilesTogether& files, const LightmapPage& page, const s
             return files.add(
                 file, [&](StagedFile& staged) { return write_texture(staged, packed, metadata_of(texture, origin)); });
         };
-        if (Status status = pack_each(storage->layout(traits_), planes, take); !status) return status;
+        if (Status status = pack_each(storage->layout(traits_), planes, take, files.stop().flag()); !status)
+            return status;
     }
     entry.validity = stem + ".validity.ktx2";
     return files.add(*entry.validity, [&](StagedFile& staged) {

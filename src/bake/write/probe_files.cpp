@@ -19,7 +19,7 @@ namespace {
 using nlohmann::ordered_json;
 
 constexpr std::uint64_t k_most_probes = 1u << 26, k_most_cells = 1u << 26, k_most_coefficients = 4096;
-constexpr std::uintmax_t k_most_mebibytes = 16384;
+constexpr std::uint64_t k_most_bytes = std::uint64_t{16} << 30;
 static_assert(std::endian::native == std::endian::little, "files are little-endian");
 
 ordered_json triple(Vec3 v) { return {shortest(v.x), shortest(v.y), shortest(v.z)}; }
@@ -91,8 +91,13 @@ std::string read_description(const JsonPlace& top, ProbeSet& probes) {
     return top.at("file").file_name();
 }
 
+Result<std::string> read_probe_file(const std::filesystem::path& path) {
+    const auto file = InputFile::open(path, within_folder(k_most_bytes));
+    return file ? read_text(*file) : file.error();
+}
+
 Status read_coefficients(const std::filesystem::path& path, ProbeSet& probes) {
-    const auto bytes = read_text(path, k_most_mebibytes);
+    const auto bytes = read_probe_file(path);
     if (!bytes) return bytes.error();
     const std::size_t values = 3 * probes.size() * probes.coefficients_per_probe;
     if (bytes->size() != values * sizeof(float))
@@ -151,7 +156,7 @@ Result<ProbeDescription> probes_from_json(std::string_view text, const std::stri
 }
 
 Result<ProbeSet> read_probes(const std::filesystem::path& path) {
-    const auto text = read_text(path, k_most_mebibytes);
+    const auto text = read_probe_file(path);
     if (!text) return text.error();
     auto description = probes_from_json(*text, path.string());
     if (!description) return description.error();

@@ -189,11 +189,16 @@ std::filesystem::path bake_folder(const std::filesystem::path& path) {
 }
 
 Result<Manifest> read_manifest(const std::filesystem::path& path) {
+    // Whoever names the file itself may name a link; what lies in a folder must not be one.
     std::error_code code;
-    const auto file = std::filesystem::is_directory(path, code) ? path / k_manifest_name : path;
-    const auto text = read_text(file, 1024);
+    constexpr std::uint64_t k_most_bytes = std::uint64_t{1} << 30;
+    const auto file = std::filesystem::is_directory(path, code)
+                          ? InputFile::open(path / k_manifest_name, within_folder(k_most_bytes))
+                          : InputFile::open(path, {.most_bytes = k_most_bytes});
+    if (!file) return file.error();
+    const auto text = read_text(*file);
     if (!text) return text.error();
-    return manifest_from_json(*text, file.string());
+    return manifest_from_json(*text, file->name());
 }
 
 }  // namespace lobelia

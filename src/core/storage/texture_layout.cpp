@@ -6,6 +6,7 @@
 #include <cmath>
 #include <deque>
 
+#include "core/stop.h"
 #include "core/storage/components.h"
 
 namespace lobelia {
@@ -208,7 +209,8 @@ class PackedLead {
     std::vector<const PackedTexture*> packed_;
 };
 
-PackedTexture pack_texture(const Texture& texture, const CoefficientPlanes& planes, const PackedLead& lead) {
+PackedTexture pack_texture(const Texture& texture, const CoefficientPlanes& planes, const PackedLead& lead,
+                           StopFlag stop = {}) {
     const FormatInfo& format = info(texture.format);
     PackedTexture packed{texture.name,
                          texture.format,
@@ -225,6 +227,7 @@ PackedTexture pack_texture(const Texture& texture, const CoefficientPlanes& plan
     std::vector<std::vector<float>> prepared(format.channels);
     std::vector<const float*> channels(format.channels);
     for (std::size_t y = 0; y < packed.height; y += strip) {
+        stop.check();
         const std::size_t rows = std::min(strip, packed.height - y);
         if (has_ratios(texture)) {
             const std::size_t top = y * texture.subsampling;
@@ -279,17 +282,20 @@ std::vector<PackedTexture> pack(const TextureLayout& layout, const CoefficientPl
     return packed;
 }
 
-Status pack_each(const TextureLayout& layout, const CoefficientPlanes& coefficients, const TakeTexture& take) {
+Status pack_each(const TextureLayout& layout, const CoefficientPlanes& coefficients, const TakeTexture& take,
+                 const std::atomic<bool>* stop) {
     assert(coefficients.planes.size() == 3 * layout.coefficients && coefficients.size() > 0);
     const bool keeps_lead = std::any_of(layout.textures.begin(), layout.textures.end(), has_ratios);
-    std::deque<PackedTexture> kept;
-    PackedLead lead;
-    for (const Texture& texture : layout.textures) {
-        PackedTexture packed = pack_texture(texture, coefficients, lead);
-        if (Status status = take(texture, packed); !status) return status;
-        if (keeps_lead && holds_lead(texture)) lead.add(texture, kept.emplace_back(std::move(packed)));
-    }
-    return Done{};
+    return unless_stopped([&]() -> Status {
+        std::deque<PackedTexture> kept;
+        PackedLead lead;
+        for (const Texture& texture : layout.textures) {
+            PackedTexture packed = pack_texture(texture, coefficients, lead, stop);
+            if (Status status = take(texture, packed); !status) return status;
+            if (keeps_lead && holds_lead(texture)) lead.add(texture, kept.emplace_back(std::move(packed)));
+        }
+        return Done{};
+    });
 }
 
 void unpack(const TextureLayout& layout, std::span<const PackedTexture> textures, const MutableCoefficientPlanes& out) {

@@ -134,8 +134,8 @@ void Accessor::open_sparse(Document& document, const JsonPlace& sparse, std::siz
     auto& known = document.sparse_indices[accessor];
     sparse_indices_ = known;
     if (known) return;
-    if (count > document.sparse_left) sparse.refuse("too many sparse elements in all");
-    document.sparse_left -= count;
+    document.keep(sparse, count, sizeof(std::uint32_t));
+    document.work(sparse, count);
     std::vector<std::uint32_t> ascending;
     ascending.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {

@@ -13,12 +13,6 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "the numbers of a glTF file are read as they lie in memory");
 
-/// The two parts of a file; text files have no binary one.
-struct Container {
-    std::string_view json;
-    std::optional<Bytes> binary;
-};
-
 std::uint32_t word_at(Bytes bytes, std::size_t offset) {
     std::uint32_t word = 0;
     std::memcpy(&word, bytes.data() + offset, sizeof word);
@@ -56,6 +50,8 @@ Container split_glb(Bytes bytes, std::string_view name) {
     return parts;
 }
 
+}  // namespace
+
 Container split(Bytes bytes, std::string_view name) {
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     if (text.empty()) throw JsonRefusal(fmt::format("{}: the file is empty", name));
@@ -65,6 +61,8 @@ Container split(Bytes bytes, std::string_view name) {
         throw JsonRefusal(fmt::format("{}: neither a .glb nor a .gltf file", name));
     return Container{text, std::nullopt};
 }
+
+namespace {
 
 /// "2.0" as (2, 0).
 std::optional<std::array<int, 2>> parse_version(std::string_view text) {
@@ -101,6 +99,8 @@ void refuse_nulls(const JsonPlace& value) {
             if (key != "extras") refuse_nulls(member);
 }
 
+}  // namespace
+
 std::vector<JsonPlace> objects(const JsonPlace& parent, const char* key) {
     const auto found = parent.find(key);
     if (!found) return {};
@@ -109,6 +109,8 @@ std::vector<JsonPlace> objects(const JsonPlace& parent, const char* key) {
         if (!entry.is_object()) entry.refuse("not an object");
     return entries;
 }
+
+namespace {
 
 void read_arrays(Document& document, const JsonPlace& root) {
     document.accessors = objects(root, "accessors");
@@ -174,12 +176,48 @@ void Document::warn(const JsonPlace& place, std::string_view what) {
     warn(more_warnings == 0 ? place.path() : std::string(), what);
 }
 
+std::size_t Document::scene_memory() const {
+    return options.scene_memory.value_or(default_scene_memory(file_bytes + resources.bytes()));
+}
+
+namespace {
+
+std::string mebibytes(std::size_t bytes) { return fmt::format("{:.1f} MiB", static_cast<double>(bytes) / (1 << 20)); }
+
+/// Names the limit, and how to raise it.
+std::string limit_text(const Document& document) {
+    const bool chosen = document.options.scene_memory.has_value();
+    return fmt::format("{}{}; --scene-memory (GltfReadOptions::scene_memory) allows more",
+                       mebibytes(document.scene_memory()),
+                       chosen ? "" : ", which is 1 GiB and 256 times the size of its files");
+}
+
+}  // namespace
+
+void Document::keep(const JsonPlace& place, std::size_t count, std::size_t bytes_each) {
+    const std::size_t left = scene_memory() - std::min(scene_memory(), kept_bytes);
+    if (count > left / std::max<std::size_t>(bytes_each, 1))
+        place.refuse(fmt::format("the scene would take {}, and more may follow; it may take {}",
+                                 mebibytes(kept_bytes + count * bytes_each), limit_text(*this)));
+    kept_bytes += count * bytes_each;
+}
+
+void Document::work(const JsonPlace& place, std::size_t count) {
+    constexpr std::size_t k_bytes_per_element = 8;
+    stop().check();
+    elements += count;
+    if (elements > scene_memory() / k_bytes_per_element)
+        place.refuse(fmt::format("more than {} elements would be read, one for {} bytes that the scene may take: {}",
+                                 scene_memory() / k_bytes_per_element, k_bytes_per_element, limit_text(*this)));
+}
+
 Document open_document(Bytes bytes, const std::string& name, const ResourceReader& resources,
                        const GltfReadOptions& options) {
     const Container container = split(bytes, name);
-    const auto json = JsonDocument::parse(container.json, name);
+    const auto json = JsonDocument::parse(container.json, name, {.stop = options.stop});
     if (!json) throw JsonRefusal(json.error().message);
     Document document(*json, Resources(resources, options.most_bytes), options);
+    document.file_bytes = bytes.size();
     const JsonPlace root(document.json);
     check_version(document, root);
     check_extensions(document, root);

@@ -5,9 +5,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <optional>
 
+#include "core/stop.h"
 #include "io/json.h"
 #include "scene/gltf/resources.h"
 
@@ -32,7 +34,28 @@ struct Document {
     std::size_t more_warnings = 0;  ///< beyond the first few
     /// Indices of sparse accessors, checked and read once each.
     std::map<std::size_t, std::shared_ptr<const std::vector<std::uint32_t>>> sparse_indices;
-    std::size_t sparse_left = std::size_t{1} << 26;  ///< elements that may still be read
+
+    std::size_t file_bytes = 0;                ///< size of the file itself
+    std::size_t kept_bytes = 0, elements = 0;  ///< memory of the scene and elements read so far
+
+    /// Counts memory that the scene keeps, before it is allocated; refuses `place` beyond
+    /// GltfReadOptions::scene_memory.
+    void keep(const JsonPlace& place, std::size_t count, std::size_t bytes_each);
+    /// Counts elements that are about to be read; refuses `place` beyond the limit. Throws Stopped if that is asked
+    /// for.
+    void work(const JsonPlace& place, std::size_t count);
+    /// Calls visit(i) for each i below `count`, and counts them as work in between.
+    template <class Visit>
+    void for_each(const JsonPlace& place, std::size_t count, const Visit& visit) {
+        constexpr std::size_t k_block = 65536;
+        for (std::size_t begin = 0; begin < count; begin += k_block) {
+            const std::size_t end = std::min(count, begin + k_block);
+            work(place, end - begin);
+            for (std::size_t i = begin; i < end; ++i) visit(i);
+        }
+    }
+    [[nodiscard]] StopFlag stop() const { return options.stop; }
+    [[nodiscard]] std::size_t scene_memory() const;
 
     [[noreturn]] void refuse(std::string_view place, std::string_view problem) const {
         throw JsonRefusal(fmt::format("{}: {}: {}", json.file(), place, problem));
@@ -40,6 +63,16 @@ struct Document {
     void warn(std::string_view place, std::string_view what);
     void warn(const JsonPlace& place, std::string_view what);
 };
+
+/// The two parts of a file; text files have no binary one.
+struct Container {
+    std::string_view json;
+    std::optional<Bytes> binary;
+};
+[[nodiscard]] Container split(Bytes bytes, std::string_view name);
+
+/// The entries of a list of objects; none where it is missing.
+[[nodiscard]] std::vector<JsonPlace> objects(const JsonPlace& parent, const char* key);
 
 /// Parses the file and fetches its buffers. `bytes` must outlive the document.
 [[nodiscard]] Document open_document(Bytes bytes, const std::string& name, const ResourceReader& resources,

@@ -158,12 +158,19 @@ class MeshReader {
                 source_.refuse(fmt::format("{} vertices; at most {} are left to be read", next, left));
         }
         context_.totals.vertices += next;
+        document_.keep(source_, next, bytes_per_vertex());
         mesh_.positions.resize(next);
         if (has_normals_) mesh_.normals.resize(next);
         if (has_colors_) mesh_.colors.resize(next, {1, 1, 1, 1});
         if (has_lightmap_uv_) mesh_.lightmap_uv.resize(next);
         for (std::size_t i = 0; i < 2; ++i)
             if (has_uv_[i]) mesh_.uv[i].resize(next);
+    }
+
+    [[nodiscard]] std::size_t bytes_per_vertex() const {
+        const auto part = [](bool has, std::size_t bytes) { return has ? bytes : 0; };
+        return sizeof(Vec3) + part(has_normals_, sizeof(Vec3)) + part(has_colors_, 4 * sizeof(float)) +
+               part(has_lightmap_uv_, sizeof(Vec2)) + part(has_uv_[0], sizeof(Vec2)) + part(has_uv_[1], sizeof(Vec2));
     }
 
     /// Each triangle has vertices of its own: it is flat, and others of the mesh are not.
@@ -225,12 +232,12 @@ class MeshReader {
             index.refuse(fmt::format("{} elements for {} vertices", accessor.count(), block.vertices));
         // Normals that are not finite are repaired.
         const bool may_be_anything = name == "NORMAL";
-        for (std::size_t i = 0; i < block.used.size(); ++i) {
+        document_.for_each(index, block.used.size(), [&](std::size_t i) {
             const auto value = accessor[block.used[i]];
             if (!may_be_anything && !is_finite(value, accessor.components()))
                 index.refuse(fmt::format("element {} is not finite", block.used[i]));
             store(block.first + i, value, accessor.components());
-        }
+        });
     }
 
     void read_vertices(const Block& block) {
@@ -273,13 +280,13 @@ class MeshReader {
         for (const Block& block : blocks_)
             for (std::size_t i = 0; i < block.used.size() && !repaired.empty() && block.has("NORMAL"); ++i)
                 context_.totals.repaired_normals += repaired[block.first + i];
-        for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+        document_.for_each(source_, mesh_.triangles.size(), [&](std::size_t t) {
             if (area_vector(mesh_, t) == Vec3{}) {
                 count(context_.totals.no_area, t);
             } else if (!mesh_.normals.empty() && opposes_winding(mesh_, t)) {
                 count(context_.totals.opposed_normals, t);
             }
-        }
+        });
     }
 
     void count(Tally& tally, std::size_t triangle) const {

@@ -231,14 +231,14 @@ std::vector<Placement> instances_of(Document& document, const JsonPlace& node) {
 
     std::vector<Placement> copies;
     copies.reserve(*count);
-    for (std::size_t i = 0; i < *count; ++i) {
+    document.for_each(attributes, *count, [&](std::size_t i) {
         Trs trs;
         if (accessors[0]) std::copy_n((*accessors[0])[i].begin(), 3, trs.translation.begin());
         if (accessors[1]) std::copy_n((*accessors[1])[i].begin(), 4, trs.rotation.begin());
         if (accessors[2]) std::copy_n((*accessors[2])[i].begin(), 3, trs.scale.begin());
         copies.push_back(placement_from(trs));
         if (!fits_float(copies.back())) attributes.refuse(fmt::format("copy {} is not finite", i));
-    }
+    });
     return copies;
 }
 

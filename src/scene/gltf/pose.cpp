@@ -26,12 +26,12 @@ void add_target(Document& document, const JsonPlace& target, const char* name, d
     const auto index = target.find(name);
     if (!index || values.empty()) return;
     const Accessor accessor = open_attribute(document, *index, 3, vertices.count);
-    for (std::size_t i = 0; i < vertices.used.size(); ++i) {
+    document.for_each(*index, vertices.used.size(), [&](std::size_t i) {
         const auto d = accessor[vertices.used[i]];
         Vec3& value = values[vertices.first + i];
         value = value + Vec3{d[0], d[1], d[2]} * static_cast<float>(weight);
         if (!is_finite(value)) index->refuse(fmt::format("element {} is not finite", vertices.used[i]));
-    }
+    });
 }
 
 /// The joints of each vertex, four to a set, and their weights.
@@ -99,6 +99,7 @@ std::vector<Placement> joint_matrices(Document& document, const NodeTree& tree, 
     std::optional<Accessor> inverse_bind;
     const auto joints = source.at("joints").list(k_most_joints);
     if (joints.empty()) source.refuse("no joints");
+    document.work(source, joints.size());
     if (const auto index = source.find("inverseBindMatrices")) {
         inverse_bind.emplace(document, *index, 16);
         if (inverse_bind->components() != 16 || inverse_bind->count() < joints.size())
@@ -140,7 +141,8 @@ std::vector<bool> apply_pose(Document& document, const Pose& pose, const JsonPla
 
     const auto sets = open_influences(document, primitive, vertices.count);
     std::vector<bool> mirrored(vertices.used.size());
-    for (std::size_t i = 0; i < vertices.used.size(); ++i) {
+    document.for_each(primitive, vertices.used.size(), [&](std::size_t i) {
+        document.work(primitive, sets.size());
         const Transform t = relative_to({}, blend(pose, sets, vertices.used[i], primitive));
         Vec3& position = mesh.positions[vertices.first + i];
         position = transform_point(t, position);
@@ -150,7 +152,7 @@ std::vector<bool> apply_pose(Document& document, const Pose& pose, const JsonPla
             Vec3& normal = mesh.normals[vertices.first + i];
             normal = transform_normal(t, normal);
         }
-    }
+    });
     return mirrored;
 }
 

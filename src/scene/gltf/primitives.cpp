@@ -48,8 +48,9 @@ std::vector<Triangle> read_triangles(Document& document, const JsonPlace& primit
     if (vertices > std::numeric_limits<std::uint32_t>::max()) primitive.refuse(fmt::format("{} vertices", vertices));
 
     // Take each corner, and check that its vertex exists.
+    document.keep(primitive, count, sizeof(Triangle) + sizeof(std::uint32_t));
     std::vector<Triangle> triangles(count);
-    for (std::size_t t = 0; t < count; ++t) {
+    document.for_each(primitive, count, [&](std::size_t t) {
         const auto positions = corners(mode, t);
         for (std::size_t k = 0; k < 3; ++k) {
             const std::uint32_t vertex =
@@ -58,7 +59,7 @@ std::vector<Triangle> read_triangles(Document& document, const JsonPlace& primit
                 at->refuse(fmt::format("element {} is vertex {} of {}", positions[k], vertex, vertices));
             triangles[t][k] = vertex;
         }
-    }
+    });
     return triangles;
 }
 

@@ -9,6 +9,7 @@
 #include "lobelia/gltf.h"
 #include "scene/check_scene.h"
 #include "scene/gltf/meshes.h"
+#include "scene/world.h"
 
 namespace lobelia {
 namespace gltf {
@@ -21,6 +22,9 @@ struct MeshKey {
     std::vector<double> weights;
     auto operator<=>(const MeshKey&) const = default;
 };
+
+/// Copies of an object's name: its own, the world's, and those of the maps that find names of several.
+constexpr std::size_t k_names = 4;
 
 /// The box around points, in double precision.
 struct Box {
@@ -105,12 +109,14 @@ class SceneReader {
     }
 
   private:
-    [[nodiscard]] std::optional<MeshKey> mesh_of(std::size_t node) const {
+    [[nodiscard]] std::optional<MeshKey> mesh_of(std::size_t node) {
         const JsonPlace& source = document_.nodes[node];
         const auto mesh = find_index(source, "mesh", document_.meshes.size());
         if (!mesh) return std::nullopt;
-        return MeshKey{*mesh, find_index(source, "skin", document_.skins.size()),
-                       morph_weights(source, document_.meshes[*mesh])};
+        MeshKey key{*mesh, find_index(source, "skin", document_.skins.size()),
+                    morph_weights(source, document_.meshes[*mesh])};
+        document_.work(source, 1 + key.weights.size());
+        return key;
     }
 
     /// Reads the meshes that shown nodes use, in the file's order: those with skins, or those without.
@@ -156,7 +162,9 @@ class SceneReader {
             if (!key) continue;
             const Placement& world = tree_.world_from_node[node];
             if (key->skin) {
-                for (const JsonPlace& joint : document_.skins[*key->skin].at("joints").list(document_.nodes.size())) {
+                const JsonPlace joints = document_.skins[*key->skin].at("joints");
+                document_.work(joints, joints.size());
+                for (const JsonPlace& joint : joints.list(document_.nodes.size())) {
                     const auto& rows = tree_.world_from_node[index_below(joint, document_.nodes.size())].rows;
                     box.add({rows[0][3], rows[1][3], rows[2][3]});
                 }
@@ -199,6 +207,7 @@ class SceneReader {
         std::string name = name_of(source);
         if (name.empty()) name = scene_.meshes[mesh->second].name;
         if (name.empty()) name = fmt::format("node {}", node);
+        document_.keep(source, copies.size(), sizeof(Object) + k_names * name.size() + each * k_bytes_per_triangle);
         for (std::size_t i = 0; i < copies.size(); ++i) {
             Object object;
             object.name = copies.size() == 1 ? name : fmt::format("{} {}", name, i);
@@ -221,12 +230,17 @@ class SceneReader {
         const auto shared = count_names();
         for (std::size_t i = 0; i < scene_.objects.size(); ++i)
             if (Object& object = scene_.objects[i]; shared.at(object.name) > 1)
-                if (std::string path = name_path(document_, tree_, node_of_object_[i]); !path.empty())
+                if (std::string path = name_path(document_, tree_, node_of_object_[i]); !path.empty()) {
+                    const JsonPlace& source = document_.nodes[node_of_object_[i]];
+                    document_.work(source, 1);
+                    document_.keep(source, path.size(), k_names);
                     object.name = std::move(path);
+                }
         auto taken = count_names();
         std::map<std::string, std::size_t> next;
         for (Object& object : scene_.objects) {
             if (taken.at(object.name) == 1) continue;
+            document_.stop().check();
             const std::string base = object.name;
             std::size_t& number = next[base];
             do {
@@ -266,12 +280,14 @@ class SceneReader {
 
 Result<LoadedScene> read_gltf(std::span<const std::byte> bytes, std::string_view name, const ResourceReader& resources,
                               const GltfReadOptions& options) {
-    try {
-        gltf::Document document = gltf::open_document(bytes, std::string(name), resources, options);
-        return gltf::SceneReader(document).read();
-    } catch (const JsonRefusal& refusal) {
-        return Error{refusal.what()};
-    }
+    return unless_stopped([&]() -> Result<LoadedScene> {
+        try {
+            gltf::Document document = gltf::open_document(bytes, std::string(name), resources, options);
+            return gltf::SceneReader(document).read();
+        } catch (const JsonRefusal& refusal) {
+            return Error{refusal.what()};
+        }
+    });
 }
 
 Result<LoadedScene> read_gltf(const std::filesystem::path& path, const GltfReadOptions& options) {

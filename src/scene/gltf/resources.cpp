@@ -107,16 +107,21 @@ ResourceReader files_in(const std::filesystem::path& folder) {
         if (code) return Error{fmt::format("{}: {}", folder.string(), code.message())};
         const std::filesystem::path file = std::filesystem::canonical(base / relative, code);
         if (code) return Error{fmt::format("{}: {}", (folder / relative).string(), code.message())};
-        const auto [end, unused] = std::mismatch(base.begin(), base.end(), file.begin(), file.end());
+        const auto [end, rest] = std::mismatch(base.begin(), base.end(), file.begin(), file.end());
         if (end != base.end())
             return Error{fmt::format("{} is refused: it leads out of the scene's folder", shown(relative))};
-        return read_file(file, most_bytes);
+        // Open it without following links any more: it may be another file by now.
+        std::filesystem::path below;
+        for (auto component = rest; component != file.end(); ++component) below /= *component;
+        const auto opened = InputFile::open_below(base, below, most_bytes);
+        return opened ? read_file(*opened) : opened.error();
     };
 }
 
 Result<std::span<const std::byte>> Resources::keep(const std::string& key, std::vector<std::byte> bytes) {
     if (bytes.size() > bytes_left_) return Error{"the files that the scene refers to are too large together"};
     bytes_left_ -= bytes.size();
+    bytes_ += bytes.size();
     if (key.empty()) return std::span<const std::byte>(data_.emplace_back(std::move(bytes)));
     return std::span<const std::byte>(files_[key] = std::move(bytes));
 }

@@ -16,12 +16,14 @@ class Resources {
     Resources(ResourceReader reader, std::size_t most_bytes) : reader_(std::move(reader)), bytes_left_(most_bytes) {}
     /// Errors say what is wrong with the URI or its file, not where it stands.
     [[nodiscard]] Result<std::span<const std::byte>> get(const std::string& uri);
+    /// The size of everything that was read so far.
+    [[nodiscard]] std::size_t bytes() const { return bytes_; }
 
   private:
     [[nodiscard]] Result<std::span<const std::byte>> keep(const std::string& key, std::vector<std::byte> bytes);
 
     ResourceReader reader_;
-    std::size_t bytes_left_;
+    std::size_t bytes_left_, bytes_ = 0;
     std::map<std::string, std::vector<std::byte>> files_;
     std::vector<std::vector<std::byte>> data_;
 };

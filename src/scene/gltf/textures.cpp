@@ -9,6 +9,8 @@ namespace {
 constexpr std::size_t k_repeat = 10497, k_mirror = 33648, k_clamp = 33071;
 constexpr std::size_t k_nearest = 9728, k_linear = 9729;
 
+constexpr std::size_t k_bytes_per_texel = 4;
+
 /// What two of the file's textures must share to be one.
 struct Key {
     std::size_t image = 0;
@@ -63,9 +65,13 @@ Bytes image_bytes(Document& document, const JsonPlace& image) {
 
 Texture decode(Document& document, const Key& key, std::size_t most_texels) {
     const JsonPlace& image = document.images[key.image];
-    auto picture = read_picture_rgba8(image_bytes(document, image),
-                                      fmt::format("{}: images[{}]", document.json.file(), key.image), most_texels);
+    document.stop().check();
+    const Bytes bytes = image_bytes(document, image);
+    const std::size_t memory = document.scene_memory() - std::min(document.scene_memory(), document.kept_bytes);
+    auto picture = read_picture_rgba8(bytes, fmt::format("{}: images[{}]", document.json.file(), key.image),
+                                      std::min(most_texels, memory / k_bytes_per_texel));
     if (!picture) throw JsonRefusal(picture.error().message);
+    document.keep(image, picture->texels.size(), k_bytes_per_texel);
     Texture texture;
     texture.name = name_of(image);
     texture.width = picture->width;
