@@ -61,7 +61,8 @@ void decode_texels(PixelFormat format, std::size_t width, std::size_t height, st
 
 /// The factor by which values up to `largest` are divided before they are stored in `format`, and multiplied on
 /// reading: a power of two. It is 1 where the format can hold them, but for formats whose steps are equal (rgbm8),
-/// which want all of [0, 1]. At most 2^127.
+/// which want all of [0, 1], and for dim values (below 2^-10) in formats of half range, where they would vanish. At
+/// most 2^127.
 [[nodiscard]] float storing_scale(PixelFormat format, float largest);
 
 /// The largest magnitude of `count` values.

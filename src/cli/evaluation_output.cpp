@@ -80,9 +80,11 @@ Result<Target> target_of(const EvaluationOptions& options, Domain domain) {
 
 Status write_values(const EvaluationOptions& options, const Target& target, const Colours& values) {
     const auto extension = std::filesystem::path(options.out).extension();
-    if (extension == ".csv") return write_file_atomically(options.out, as_csv(target.directions, values));
     Image image(target.grid.width, target.grid.height);
     for (std::size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i] = colour_at(values.view(), i);
+    // Other programs read infinity as they like, and pictures show it as white.
+    if (auto status = check_finite(image); !status) return Error{options.out + ": " + status.error().message};
+    if (extension == ".csv") return write_file_atomically(options.out, as_csv(target.directions, values));
     if (extension == ".exr") return write_exr(options.out, image);
     const double shown = std::exp2(options.exposure) / (options.radiance ? 1 : k_pi);
     return write_png(options.out, to_srgb(image, static_cast<float>(shown)));

@@ -36,6 +36,7 @@ ToneCurve tone_of(const std::string& name) {
 
 /// Writes the picture in the format of the file's name.
 Status write_picture(const RenderArguments& arguments, const Image& image) {
+    if (auto status = check_finite(image); !status) return Error{arguments.out + ": " + status.error().message};
     if (std::filesystem::path(arguments.out).extension() == ".exr") return write_exr(arguments.out, image);
     double mean = 0;
     for (const Rgb& pixel : image.pixels) mean += static_cast<double>(luminance(pixel));

@@ -3,6 +3,7 @@
 
 #include <fmt/core.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "coefficients/coefficient_file.h"
@@ -46,6 +47,13 @@ Result<std::vector<Rgb>> read(std::string_view text, const std::string& name, co
     return std::move(file->c);
 }
 
+Status check_finite(std::span<const Rgb> c, const std::string& name) {
+    for (const Rgb& v : c)
+        if (!std::isfinite(v.r) || !std::isfinite(v.g) || !std::isfinite(v.b))
+            return Error{name + ": a converted coefficient is beyond float32"};
+    return Done{};
+}
+
 /// Null for the empty name.
 Result<const ShConvention*> convention_named(const std::string& name) {
     if (name.empty()) return nullptr;
@@ -64,6 +72,7 @@ Result<Converted> convert(std::string_view text, const std::string& name, const 
     if (!input) return input.error();
     std::vector<Rgb> c = *std::move(input);
     if (options.mirrored) c = mirrored(c, static_cast<std::size_t>(*options.mirrored));
+    if (auto status = check_finite(c, name); !status) return status.error();
 
     if (*to == nullptr) {
         const auto codec = codec_for(options.codec, c.size());
@@ -75,9 +84,9 @@ Result<Converted> convert(std::string_view text, const std::string& name, const 
     if (c.size() > harmonics::coefficient_count(convention.degree))
         result.warnings.push_back(
             fmt::format("{}: {} has no degrees above {}; they are left out", name, convention.name, convention.degree));
-    result.text =
-        to_json(convention, exported(convention, c)).dump(1, ' ', false, nlohmann::json::error_handler_t::replace) +
-        "\n";
+    const auto theirs = exported(convention, c);
+    if (auto status = check_finite(theirs, name); !status) return status.error();
+    result.text = to_json(convention, theirs).dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
     return result;
 }
 

@@ -136,11 +136,24 @@ Result<std::string> encode_exr(const Image& image, const ExrOptions& options) {
     return encode_exr(image.width, image.height, channels_of(image), options);
 }
 
+Status check_finite(const Image& image) {
+    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+        const Rgb p = image.pixels[i];
+        if (!std::isfinite(p.r) || !std::isfinite(p.g) || !std::isfinite(p.b))
+            return Error{fmt::format("pixel x = {}, y = {} is ({:g}, {:g}, {:g}), not finite: beyond float32",
+                                     i % image.width, i / image.width, p.r, p.g, p.b)};
+    }
+    return Done{};
+}
+
 Status write_exr(StagedFile& file, const Image& image, const ExrOptions& options) {
+    if (const Status status = check_finite(image); !status) return status.error();
     return write_exr(file, image.width, image.height, channels_of(image), options);
 }
 
 Status write_exr(const std::filesystem::path& path, const Image& image, const ExrOptions& options) {
+    if (const Status status = check_finite(image); !status)
+        return Error{fmt::format("{}: {}", path.string(), status.error().message)};
     const Result<std::string> bytes = encode_exr(image, options);
     if (!bytes) return Error{fmt::format("{}: {}", path.string(), bytes.error().message)};
     return write_file_atomically(path, *bytes);

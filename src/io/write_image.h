@@ -36,7 +36,10 @@ struct ExrChannel {
                                              std::span<const ExrChannel> channels, const ExrOptions& options = {});
 /// The same with channels R, G, B.
 [[nodiscard]] Result<std::string> encode_exr(const Image& image, const ExrOptions& options = {});
-/// The same into a file, written atomically.
+/// An error that names the first pixel that is NaN or infinite.
+[[nodiscard]] Status check_finite(const Image& image);
+
+/// The same into a file, written atomically; an error if a value is not finite.
 [[nodiscard]] Status write_exr(const std::filesystem::path& path, const Image& image, const ExrOptions& options = {});
 [[nodiscard]] Status write_exr(StagedFile& file, const Image& image, const ExrOptions& options = {});
 /// Any channels into a file: rows go there as they are encoded, so that no second copy of a large image is in memory.

@@ -93,14 +93,53 @@ TEST_F(WriteFile, UnwritableFolderIsAnError) {
     EXPECT_NE(status.error().message.find("Permission denied"), std::string::npos) << status.error().message;
 }
 
-TEST_F(WriteFile, LinksAreFollowed) {
-    fs::create_directory(folder_ / "inner");
-    fs::create_symlink("inner/file", folder_ / "link");
-    ASSERT_TRUE(write_file_atomically(folder_ / "link", std::string_view("text")));
-    EXPECT_TRUE(fs::is_symlink(folder_ / "link"));
-    EXPECT_EQ(contents(folder_ / "inner" / "file"), "text");
-    fs::create_symlink("circle", folder_ / "circle");
-    EXPECT_FALSE(write_file_atomically(folder_ / "circle", std::string_view("text")));
+/// Whoever can put a link into a folder must not choose what is overwritten.
+TEST_F(WriteFile, LinksAreReplacedNotFollowed) {
+    test::overwrite(folder_ / "precious", "old");
+    for (const char* to : {"precious", "nowhere", "link", "/dev/null"}) {
+        fs::remove(folder_ / "link");
+        fs::create_symlink(to, folder_ / "link");
+        ASSERT_TRUE(write_file_atomically(folder_ / "link", std::string_view("text"))) << to;
+        EXPECT_FALSE(fs::is_symlink(folder_ / "link")) << to;
+        EXPECT_EQ(contents(folder_ / "link"), "text") << to;
+    }
+    EXPECT_EQ(contents(folder_ / "precious"), "old");
+    EXPECT_FALSE(fs::exists(folder_ / "nowhere"));
+}
+
+TEST_F(WriteFile, TheSystemsOwnLinksAreFollowed) {
+    test::overwrite(folder_ / "file", "old");
+    const int opened = ::open((folder_ / "file").c_str(), O_WRONLY);
+    ASSERT_GE(opened, 0);
+    ASSERT_TRUE(write_file_atomically("/proc/self/fd/" + std::to_string(opened), std::string_view("text")));
+    ::close(opened);
+    EXPECT_EQ(contents(folder_ / "file"), "text");
+
+    std::array<int, 2> ends{};
+    ASSERT_EQ(::pipe(ends.data()), 0);
+    ASSERT_TRUE(write_file_atomically("/proc/self/fd/" + std::to_string(ends[1]), std::string_view("text")));
+    std::array<char, 8> text{};
+    EXPECT_EQ(::read(ends[0], text.data(), text.size()), 4);
+    ::close(ends[0]);
+    ::close(ends[1]);
+}
+
+TEST_F(WriteFile, AStopLeavesTheOldContent) {
+    test::overwrite(folder_ / "file", "old");
+    const std::atomic<bool> stop = true;
+    auto staged = StagedFile::create(folder_ / "file", &stop);
+    ASSERT_TRUE(staged);
+    EXPECT_FALSE(staged->write(std::as_bytes(std::span("text", 4))));
+    EXPECT_EQ(contents(folder_ / "file"), "old");
+}
+
+TEST_F(WriteFile, NothingThatIsNotFiniteIsWritten) {
+    Image image(2, 1);
+    image.pixels[1].g = INFINITY;
+    const auto status = write_exr(folder_ / "image.exr", image);
+    ASSERT_FALSE(status);
+    EXPECT_NE(status.error().message.find("x = 1, y = 0"), std::string::npos) << status.error().message;
+    EXPECT_FALSE(fs::exists(folder_ / "image.exr"));
 }
 
 TEST(WriteExr, HalfRoundsAndSaturates) {

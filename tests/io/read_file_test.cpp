@@ -88,6 +88,33 @@ TEST_F(ReadFile, LinksLeadToFilesUnlessRefused) {
     expect_refused(folder_ / "dangling", "No such file");
 }
 
+/// Folders that others have filled: no component leads elsewhere.
+TEST_F(ReadFile, BelowAFolderNothingLeadsOutOfIt) {
+    const fs::path inside = folder_ / "inside";
+    fs::create_directories(inside / "deep");
+    test::overwrite(folder_ / "secret", "secret");
+    test::overwrite(inside / "deep" / "file", "text");
+    fs::create_directory_symlink(folder_, inside / "up");
+    fs::create_directory_symlink("deep", inside / "beside");
+    fs::create_symlink(folder_ / "secret", inside / "link");
+    fs::create_symlink(inside, folder_ / "named");
+    const auto message = [&](const fs::path& folder, const fs::path& relative) {
+        const auto file = InputFile::open_below(folder, relative);
+        return file ? std::string("opened") : file.error().message;
+    };
+    EXPECT_EQ(message(inside, "deep/file"), "opened");
+    EXPECT_EQ(message(folder_ / "named", "deep/file"), "opened") << "the user named this link";
+    for (const char* relative : {"up/secret", "beside/file"})
+        EXPECT_NE(message(inside, relative).find("is a symbolic link or a file, not a folder"), std::string::npos)
+            << relative << ": " << message(inside, relative);
+    EXPECT_NE(message(inside, "link").find("a symbolic link, not a regular file"), std::string::npos);
+    EXPECT_NE(message(inside, "../secret").find("leads out"), std::string::npos);
+    EXPECT_NE(message(inside, (folder_ / "secret").string()).find("not a file below"), std::string::npos);
+    EXPECT_NE(message(inside, "").find("not a file below"), std::string::npos);
+    ASSERT_EQ(::mkfifo((inside / "pipe").c_str(), 0600), 0);
+    EXPECT_NE(message(inside, "pipe").find("a pipe"), std::string::npos);
+}
+
 TEST_F(ReadFile, LimitsHoldBeforeAllocation) {
     // A file of 1 TiB without content.
     test::overwrite(folder_ / "large", "");

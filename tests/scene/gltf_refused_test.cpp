@@ -7,6 +7,7 @@
 #include "gltf_reading.h"
 #include "io/read_picture.h"
 #include "same_scenes.h"
+#include "scene/gltf/gather.h"
 
 namespace lobelia {
 namespace {
@@ -160,6 +161,58 @@ TEST(BadGltf, CompressedDataWithoutAFallbackNamesTheRemedy) {
     EXPECT_TRUE(says(gltf_error(root.dump()), "bufferViews[0]: EXT_meshopt_compression is not read"));
 }
 
+/// A square of which EXT_mesh_gpu_instancing makes a million copies, by an accessor without data.
+GltfFile many_copies() {
+    GltfFile file = square_file();
+    const std::size_t zeros =
+        file.add("accessors", {{"componentType", 5126}, {"type", "VEC3"}, {"count", std::size_t{1} << 20}});
+    file.root["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]["TRANSLATION"] = zeros;
+    return file;
+}
+
+/// `count` primitives over accessors without data, of a million vertices each.
+GltfFile many_zeros(std::size_t count) {
+    GltfFile file = square_file();
+    const std::size_t zeros =
+        file.add("accessors", {{"componentType", 5126}, {"type", "VEC3"}, {"count", std::size_t{1} << 20}});
+    nlohmann::json primitive = {{"attributes", {{"POSITION", zeros}}}};
+    file.root["meshes"][0]["primitives"] = nlohmann::json(count, primitive);
+    return file;
+}
+
+/// A small file asks for a scene of gigabytes, or for hours of reading: refused at once, unless an option allows it.
+TEST(BadGltf, SmallFilesGiveSmallScenes) {
+    GltfFile morphed = many_zeros(1);
+    morphed.root["meshes"][0]["primitives"][0]["targets"] =
+        nlohmann::json(4096, {{"POSITION", morphed.root["meshes"][0]["primitives"][0]["attributes"]["POSITION"]}});
+    morphed.root["meshes"][0]["weights"] = nlohmann::json(4096, 1.0);
+    for (const GltfFile& file : {many_copies(), many_zeros(400), morphed}) {
+        const std::string bytes = file.glb();
+        const auto start = std::chrono::steady_clock::now();
+        const auto loaded = read_gltf(std::as_bytes(std::span(bytes)), "small.glb", {});
+        ASSERT_FALSE(loaded);
+        EXPECT_TRUE(says(loaded.error().message, "--scene-memory")) << loaded.error().message;
+        EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(60));
+    }
+    GltfReadOptions options;
+    options.scene_memory = std::size_t{1} << 32;
+    const std::string bytes = many_copies().glb();
+    EXPECT_TRUE(read_gltf(std::as_bytes(std::span(bytes)), "small.glb", {}, options));
+    options.scene_memory = 1 << 10;
+    const std::string square = square_file().glb();
+    EXPECT_FALSE(read_gltf(std::as_bytes(std::span(square)), "small.glb", {}, options));
+}
+
+TEST(BadGltf, AStopEndsTheReading) {
+    const std::atomic<bool> stop = true;
+    GltfReadOptions options;
+    options.stop = &stop;
+    const std::string bytes = square_file().glb();
+    const auto loaded = read_gltf(std::as_bytes(std::span(bytes)), "small.glb", {}, options);
+    ASSERT_FALSE(loaded);
+    EXPECT_TRUE(says(loaded.error().message, "stopped"));
+}
+
 TEST(BadGltf, LimitsHoldBeforeAllocation) {
     GltfReadOptions options;
     options.most_triangles = 5;
@@ -206,6 +259,31 @@ class GltfFolder : public testing::Test {
     std::filesystem::path folder_;
     GltfFile file_;
 };
+
+/// What other programs are given holds the files as they were checked, under names that the scene did not choose.
+TEST_F(GltfFolder, GatheredFilesNameNothingOutside) {
+    buffer("data%20file.bin");
+    std::ofstream(folder_ / "scene" / "gathered.gltf") << file_.root.dump();
+    const auto gathered = gltf::gather_gltf(folder_ / "scene" / "gathered.gltf", 1 << 20);
+    ASSERT_TRUE(gathered) << gathered.error().message;
+    const auto json = nlohmann::json::parse(gathered->json);
+    std::size_t named = 0;
+    for (const char* list : {"buffers", "images"})
+        for (const auto& entry : json[list]) {
+            if (!entry.contains("uri") || entry["uri"].get<std::string>().starts_with("data:")) continue;
+            EXPECT_TRUE(entry["uri"].get<std::string>().starts_with("resource-"));
+            ++named;
+        }
+    EXPECT_EQ(named, gathered->files.size());
+    EXPECT_GT(named, 0u);
+
+    std::filesystem::create_symlink(folder_ / "secret.bin", folder_ / "scene" / "link.png");
+    file_.root["images"][1]["uri"] = "link.png";
+    std::ofstream(folder_ / "scene" / "gathered.gltf") << file_.root.dump();
+    const auto refused = gltf::gather_gltf(folder_ / "scene" / "gathered.gltf", 1 << 20);
+    ASSERT_FALSE(refused);
+    EXPECT_TRUE(says(refused.error().message, "leads out of the scene's folder")) << refused.error().message;
+}
 
 TEST_F(GltfFolder, ExternalFilesAreRead) {
     EXPECT_EQ(error(), "read without an error");

@@ -10,6 +10,7 @@
 #include "bake/write/page_textures.h"
 #include "bake/write/probe_files.h"
 #include "bake/write/scene_copy.h"
+#include "core/math/half.h"
 #include "lobelia/bake.h"
 
 namespace lobelia {
@@ -21,9 +22,6 @@ constexpr const char* k_scene_name = "scene.glb";
 constexpr const char* k_environment_name = "environment.exr";
 constexpr const char* k_probes_name = "probes.json";
 constexpr const char* k_probe_coefficients_name = "probes.bin";
-
-/// Largest finite value of a half float.
-constexpr float k_largest_half = 65504;
 
 /// Finds the largest magnitude on all pages. An error for a value that is not finite.
 Result<float> largest_value(const Bake& bake) {
@@ -46,11 +44,14 @@ Result<float> largest_value(const Bake& bake) {
 Status choose_precision(const Bake& bake, Manifest& manifest) {
     const auto largest = largest_value(bake);
     if (!largest) return largest.error();
-    if (manifest.precision == Precision::full || *largest <= k_largest_half) return Done{};
+    const bool dim = *largest > 0 && *largest < k_dim_for_half;
+    if (manifest.precision == Precision::full || (!dim && *largest <= k_largest_half)) return Done{};
     manifest.precision = Precision::full;
     manifest.warnings.push_back(
-        fmt::format("values up to {:g} exceed the range of half floats ({:g}): the pages are written as float",
-                    *largest, k_largest_half));
+        dim ? fmt::format("no value exceeds {:g}, and half floats end at 6e-8: the pages are written as float",
+                          *largest)
+            : fmt::format("values up to {:g} exceed the range of half floats ({:g}): the pages are written as float",
+                          *largest, k_largest_half));
     return Done{};
 }
 

@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "bake/solve/page_irradiance.h"
 #include "bake/write/files_together.h"
 #include "io/write_image.h"
@@ -12,6 +15,9 @@ namespace {
 
 Status write_page_irradiance(StagedFile& file, const LightmapPage& page, std::span<const Vec3> normals,
                              std::span<const Rgb> irradiance) {
+    const auto is_finite = [](Rgb e) { return std::isfinite(e.r) && std::isfinite(e.g) && std::isfinite(e.b); };
+    if (!std::all_of(irradiance.begin(), irradiance.end(), is_finite))
+        return Error{"the irradiance of a texel is not finite: its coefficients are too large for float32"};
     std::vector<float> validity(page.size());
     for (std::size_t i = 0; i < page.size(); ++i)
         if (!(normals[i] == Vec3{})) validity[i] = page.validity[i];

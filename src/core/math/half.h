@@ -8,6 +8,9 @@ namespace lobelia {
 
 /// The largest finite half.
 inline constexpr float k_largest_half = 65504;
+/// Half floats are multiples of 2^-24. What is no larger than this is dim: of its values, those below a ten-thousandth
+/// of the largest would vanish.
+inline constexpr float k_dim_for_half = 0x1p-10f;
 
 /// `value` rounded to nearest, ties to even; magnitudes beyond 65504 become 65504, NaN stays NaN.
 [[nodiscard]] constexpr std::uint16_t half_from_float(float value) {

@@ -190,10 +190,13 @@ void decode_texels(PixelFormat format, std::size_t width, std::size_t height, st
 float storing_scale(PixelFormat format, float largest) {
     const double limit = info(format).highest;
     const bool always = entry_of(format).scaling == Scaling::always;
-    if (!(largest > 0) || (!always && largest <= limit)) return 1;
+    // Halves, blocks of them and rgb9e5 end at about 2^-24: dim values are brought to 1.
+    const bool ends_early = limit > 1 && limit <= static_cast<double>(k_largest_half) * 1.01;
+    const bool dim = ends_early && largest < k_dim_for_half;
+    if (!(largest > 0) || (!always && !dim && largest <= limit)) return 1;
     // The least power of two that brings `largest` to the limit or below.
     int exponent = 0;
-    const double share = std::frexp(static_cast<double>(largest) / limit, &exponent);
+    const double share = std::frexp(static_cast<double>(largest) / (dim ? 1 : limit), &exponent);
     if (share == 0.5) --exponent;
     return std::ldexp(1.0f, std::clamp(exponent, -126, 127));
 }
