@@ -1,4 +1,6 @@
 // Tests that a written bake reads back equal, and that damaged or foreign files are refused.
+#include <sys/stat.h>
+
 #include <gtest/gtest.h>
 
 #include "bake/write/manifest.h"
@@ -254,6 +256,46 @@ TEST(BakeFolder, LightBeyondHalfIsWrittenAsFloat) {
     EXPECT_EQ(read->pages[0].planes[2][1], 1e6f);
     bake.pages[0].planes[2][1] = 65504;
     EXPECT_EQ(write_bake(folder.path(), bake)->precision, Precision::half);
+}
+
+/// Half floats end at 6e-8: dim light would lose its steps, or vanish.
+TEST(BakeFolder, DimPagesAreWrittenAsFloats) {
+    const test::TestFolder folder("bake-dim");
+    Bake bake = test::some_bake("sh1/moments/convolution");
+    bake.manifest.precision = Precision::half;
+    for (LightmapPage& page : bake.pages)
+        for (auto& plane : page.planes) std::fill(plane.begin(), plane.end(), 3e-8f);
+    const auto manifest = write_bake(folder.path(), bake);
+    ASSERT_TRUE(manifest) << manifest.error().message;
+    EXPECT_EQ(manifest->precision, Precision::full);
+    EXPECT_NE(manifest->warnings.back().find("half floats end at 6e-8"), std::string::npos);
+    for (const TextureEntry& texture : manifest->pages[0].textures)
+        if (texture.storage == "float16") EXPECT_LT(texture.scale, 1e-6f);
+    const auto read = read_bake(folder.path());
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(read->pages[0].planes[2][1], 3e-8f);
+}
+
+/// Whoever fills a folder must not choose what is read: no file of it is a link or a pipe.
+TEST(BakeFolder, LinksAndPipesAreRefused) {
+    const test::TestFolder folder("bake-links");
+    const auto whole = folder.path() / "whole", other = folder.path() / "other";
+    ASSERT_TRUE(write_bake(whole, test::some_bake("sh1/moments/convolution")));
+    ASSERT_TRUE(read_bake(whole));
+    for (const char* name : {"bake.json", "page-1.exr", "probes.json", "probes.bin"}) {
+        std::filesystem::rename(whole / name, other);
+        std::filesystem::create_symlink(other, whole / name);
+        auto read = read_bake(whole);
+        ASSERT_FALSE(read) << name;
+        EXPECT_NE(read.error().message.find("symbolic link"), std::string::npos) << read.error().message;
+        std::filesystem::remove(whole / name);
+        ASSERT_EQ(::mkfifo((whole / name).c_str(), 0600), 0);
+        read = read_bake(whole);
+        ASSERT_FALSE(read) << name;
+        EXPECT_NE(read.error().message.find("pipe"), std::string::npos) << read.error().message;
+        std::filesystem::remove(whole / name);
+        std::filesystem::rename(other, whole / name);
+    }
 }
 
 TEST(BakeFolder, NothingThatIsNotFiniteIsWritten) {
