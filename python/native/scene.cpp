@@ -9,9 +9,11 @@
 namespace lobelia::python {
 namespace {
 
-SceneHandle read(const std::filesystem::path& path, std::size_t uv_set, bool photometric) {
+SceneHandle read(const std::filesystem::path& path, std::size_t uv_set, bool photometric,
+                 std::optional<std::size_t> scene_memory) {
     GltfReadOptions options;
     options.uv_set = uv_set;
+    options.scene_memory = scene_memory;
     if (photometric) options.units = GltfReadOptions::Units::photometric;
     py::gil_scoped_release released;
     return {std::make_shared<LoadedScene>(value_or_throw(read_gltf(path, options)))};
@@ -76,9 +78,10 @@ void add_scene(py::module_& module) {
              "Surrounds the scene with the embedded sky; its sun replaces directional lights.")
         .def("__repr__", [](const SceneHandle& s) { return "<lobelia.Scene \"" + s.loaded->scene.name + "\">"; });
     module.def("read_gltf", &read, py::arg("path"), py::kw_only(), py::arg("uv_set") = 1,
-               py::arg("photometric") = false,
+               py::arg("photometric") = false, py::arg("scene_memory") = py::none(),
                "Reads a .gltf or .glb file. uv_set: the TEXCOORD with the lightmap UVs; photometric: lights and "
-               "emission are in lux, candela and nits.");
+               "emission are in lux, candela and nits; scene_memory: bytes that the scene may take with all its copies "
+               "(None: 1 GiB and 256 times the size of its files).");
     module.def("embedded_scene", &make_embedded, py::arg("name"),
                "Makes a scene by code: \"cornell\", \"colonnade\" and others of embedded_scene_names().");
     module.def("embedded_scene_names", [] {

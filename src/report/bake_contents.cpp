@@ -21,7 +21,7 @@ std::vector<std::pair<std::string, std::string>> bake_settings(const BakeOptions
     return facts;
 }
 
-Result<BakeReport> bake_report_of(const Scene& scene, const Bake& bake) {
+Result<BakeReport> bake_report_of(const Scene& scene, const Bake& bake, StopFlag stop) {
     auto light = light_of(bake);
     if (!light) return light.error();
     BakeReport report;
@@ -30,9 +30,11 @@ Result<BakeReport> bake_report_of(const Scene& scene, const Bake& bake) {
     report.statistics = bake.manifest.statistics;
     report.warnings = bake.manifest.warnings;
     report.light = *std::move(light);
-    for (std::size_t p = 0; report.light.codec && p < bake.pages.size(); ++p)
+    for (std::size_t p = 0; report.light.codec && p < bake.pages.size(); ++p) {
+        stop.check();
         report.codec_irradiance.push_back(page_irradiance(bake.pages[p], bake.channels(), bake.normals[p],
                                                           report.light.frame, report.light.codec->evaluator()));
+    }
     if (bake.preflight) report.object_of_chart = bake.preflight->object_of_chart;
     report.objects = object_figures(scene, report.light, report.object_of_chart, report.codec_irradiance);
     if (bake.probes)
@@ -42,17 +44,21 @@ Result<BakeReport> bake_report_of(const Scene& scene, const Bake& bake) {
 
 Result<std::string> bake_report(const Scene& scene, const Bake& bake, const ReportOptions& options,
                                 const RenderOptions& pictures) {
-    auto report = bake_report_of(scene, bake);
-    if (!report) return report.error();
-    if (bake.preflight) add_preflight(*report, *bake.preflight, scene);
-    RenderOptions of_pictures = pictures;
-    of_pictures.width = options.width;
-    of_pictures.height = options.height;
-    of_pictures.samples = options.samples;
-    auto views = render_views(scene, report->light, bake.manifest.options.paths, of_pictures);
-    if (!views) return Error{"stopped"};
-    report->views = std::move(*views);
-    return bake_html(*report);
+    return unless_stopped([&]() -> Result<std::string> {
+        auto report = bake_report_of(scene, bake, pictures.stop);
+        if (!report) return report.error();
+        if (bake.preflight) add_preflight(*report, *bake.preflight, scene);
+        RenderOptions of_pictures = pictures;
+        of_pictures.width = options.width;
+        of_pictures.height = options.height;
+        of_pictures.samples = options.samples;
+        auto views = render_views(scene, report->light, bake.manifest.options.paths, of_pictures);
+        if (!views) return stopped_error();
+        report->views = std::move(*views);
+        BakeReportOptions of_html;
+        of_html.stop = pictures.stop;
+        return bake_html(*report, of_html);
+    });
 }
 
 }  // namespace lobelia

@@ -65,12 +65,13 @@ Rgb colour_of(const LightmapPage& page, std::size_t plane, std::size_t i) {
 /// Adds layers with pictures at one reduction.
 class LayerWriter {
   public:
-    LayerWriter(const BakeReport& bake, BakeLayers& out) : bake_(&bake), out_(&out) {}
+    LayerWriter(const BakeReport& bake, StopFlag stop, BakeLayers& out) : bake_(&bake), stop_(stop), out_(&out) {}
 
     /// `value_at(page number, texel)` gives an Rgb or a float.
     template <class Value, class ValueAt>
     void add(nlohmann::json layer, std::size_t factor, const ValueAt& value_at) {
         for (std::size_t p = 0; p < bake_->light.pages.size(); ++p) {
+            stop_.check();
             const LightmapPage& page = bake_->light.pages[p];
             const Extent to(page, factor);
             const auto values = means<Value>(page, to, [&](std::size_t i) { return value_at(p, i); });
@@ -91,6 +92,7 @@ class LayerWriter {
         out_->pictures[fmt::format("{} {}", layer["name"].get<std::string>(), page)] = std::move(picture);
     }
     const BakeReport* bake_;
+    StopFlag stop_;
     BakeLayers* out_;
 };
 
@@ -196,7 +198,7 @@ BakeLayers bake_layers(const BakeReport& bake, const BakeReportOptions& options)
     const std::size_t coefficient_bytes = k_colour_bytes * std::max<std::size_t>(1, bake.light.channels.coefficients);
     const std::size_t coefficient_factor =
         std::max(factor, factor_for(bake.light.pages, coefficient_bytes, options.most_layer_bytes / 2));
-    LayerWriter writer(bake, out);
+    LayerWriter writer(bake, options.stop, out);
     add_irradiance(writer, bake, factor);
     add_quality(writer, bake, factor, out.layers);
     add_coefficients(writer, bake, coefficient_factor);

@@ -42,10 +42,10 @@ void add_preflight(BakeReport& report, const Preflight& preflight, const Scene& 
          fmt::format("{} on {} page{}, covering {:.1f} % of the texels", preflight.charts, preflight.pages.size(),
                      preflight.pages.size() == 1 ? "" : "s", 100 * static_cast<double>(preflight.texels) / texels)});
     const BakeMemory& memory = preflight.memory;
-    report.checks.push_back(
-        {Level::note, "Memory",
-         fmt::format("{}: states {}, pages {}, finishing {}", mebibytes(memory.total()), mebibytes(memory.states),
-                     mebibytes(memory.pages), mebibytes(memory.finishing))});
+    report.checks.push_back({Level::note, "Memory",
+                             fmt::format("{}: scene {}, states {}, pages {}, finishing {}", mebibytes(memory.total()),
+                                         mebibytes(memory.scene), mebibytes(memory.states), mebibytes(memory.pages),
+                                         mebibytes(memory.finishing))});
     if (!preflight.density.share.empty())
         report.checks.push_back(
             {Level::note, "Density",

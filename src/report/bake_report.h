@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bake/render/render.h"
+#include "core/stop.h"
 #include "lobelia/image.h"
 #include "measure/bake_figures.h"
 #include "measure/bake_views.h"
@@ -47,13 +48,15 @@ struct BakeReport {
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> bake_settings(const BakeOptions& options,
                                                                              std::size_t pages);
 /// Everything but views and preflight of a bake, which must outlive the result. Error: its codec is unknown.
-[[nodiscard]] Result<BakeReport> bake_report_of(const Scene& scene, const Bake& bake);
+/// Throws Stopped.
+[[nodiscard]] Result<BakeReport> bake_report_of(const Scene& scene, const Bake& bake, StopFlag stop = {});
 
 /// Adds the results of a preflight: checks, densities, a picture of each page.
 void add_preflight(BakeReport& report, const Preflight& preflight, const Scene& scene);
 
 struct BakeReportOptions {
     std::size_t most_layer_bytes = std::size_t{24} << 20;  ///< of the lightmaps' pictures; larger ones are reduced
+    StopFlag stop = {};                                    ///< Stopped is thrown
 };
 
 /// The HTML: CSS, scripts, pictures and data are inside, and it loads nothing. Whatever strings the bake holds cannot
