@@ -166,14 +166,21 @@ auto with_threads(const BakeJob& job, const Work& work) {
     return arena.execute([&] { return unless_stopped(work); });
 }
 
+/// An error if the folder cannot be written to, or its checkpoint would be written elsewhere.
+Status check_output(const fs::path& folder) {
+    if (auto status = check_folder(folder); !status) return status;
+    std::error_code code;
+    if (const fs::path checkpoint = checkpoint_folder(folder); fs::is_symlink(checkpoint, code))
+        return Error{checkpoint.string() +
+                     ": a symbolic link; checkpoints are written into the bake's own folder only"};
+    return Done{};
+}
+
 /// An error if the folder cannot be written to, or holds states that a fresh start would replace.
 Status check_session(const BakeSession& session) {
     if (session.folder.empty()) return Done{};
-    if (auto status = check_folder(session.folder); !status) return status;
+    if (auto status = check_output(session.folder); !status) return status;
     std::error_code code;
-    if (const fs::path checkpoint = checkpoint_folder(session.folder); fs::is_symlink(checkpoint, code))
-        return Error{checkpoint.string() +
-                     ": a symbolic link; checkpoints are written into the bake's own folder only"};
     const fs::path states = region_file(checkpoint_folder(session.folder), 0);
     if (session.start == BakeSession::Start::fresh && fs::exists(states, code)) return earlier_checkpoint(states);
     return Done{};
@@ -205,7 +212,7 @@ Result<Bake> bake(const Scene& scene, const BakeJob& job, BakeSession& session) 
 
 Result<Bake> merge_bake(const Scene& scene, const BakeJob& job, std::span<const fs::path> shards,
                         BakeSession& session) {
-    if (auto status = check_session(session); !status) return status.error();
+    if (auto status = check_output(session.folder); !status) return status.error();
     std::vector<fs::path> checkpoints;
     for (const fs::path& shard : shards) checkpoints.push_back(checkpoint_folder(shard));
     const Status merged = with_threads(job, [&]() -> Status {
