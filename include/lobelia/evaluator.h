@@ -51,8 +51,8 @@ struct Accuracy {
 /// Treatment of radiance or irradiance below 0, which no light has but a fit may have: it stays, or becomes 0.
 enum class Negative { kept, clamped };
 
-/// Evaluates coefficients as irradiance E(n) [W/m^2] at unit normals n. Neither form allocates memory, but for working
-/// memory that each thread keeps after its first call.
+/// Evaluates coefficients as irradiance E(n) [W/m^2] at unit normals n. No call allocates memory but a thread's first,
+/// for working memory that it keeps. Exceptions: "dering", and the evaluators of fitted lobes (sgfit*), which search.
 class Evaluator {
   public:
     virtual ~Evaluator() = default;

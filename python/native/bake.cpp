@@ -2,7 +2,6 @@
 #include "lobelia/bake.h"
 
 #include "arrays.h"
-#include "bake/check_job.h"
 #include "interruptible.h"
 #include "scene.h"
 
@@ -67,20 +66,21 @@ BakeJob to_job(const py::kwargs& options) {
     set("storages", job.storages);
     if (!options["probe_spacing"].is_none()) set("probe_spacing", job.probes.emplace().spacing);
     job.report.write = Switch::off;
-    if (const auto status = check(job); !status) throw BadInput(status.error().message);
     return job;
 }
 
 BakeHandle run(const SceneHandle& scene, const std::optional<std::filesystem::path>& folder, bool resume,
-               const py::object& progress, const BakeJob& job) {
+               const py::object& progress, BakeJob job) {
     // Hold the scene: Python may drop it, or give it another environment.
     const auto held = scene.loaded;
+    job.scene = held->source;
     return run_interruptibly<BakeProgress>(progress, [&](const std::atomic<bool>& stop, const auto& report) {
         BakeSession session;
         if (folder) session.folder = *folder;
         session.start = resume ? BakeSession::Start::resume : BakeSession::Start::fresh;
         session.stop = &stop;
         session.progress = report;
+        session.earlier_warnings = held->warnings;
         return std::make_shared<Bake>(value_or_throw(bake(held->scene, job, session)));
     });
 }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <tbb/task_arena.h>
 
+#include "bake/check_job.h"
 #include "bake/finish/finish.h"
 #include "bake/finish/steps.h"
 #include "bake/place/objects.h"
@@ -38,6 +39,7 @@ void warn(Bake& bake, const BakeSession& session, const std::string& text) {
 
 /// Lays out pages, texels and probes; checks everything that is cheap to refuse, and warns.
 Result<BakeWork> place(const Scene& scene, const BakeJob& job, const BakeSession& session) {
+    if (const auto valid = check(job); !valid) return valid.error();
     if (const auto textures = PageTextures::make(job.bake.codec, job.storages); !textures) return textures.error();
     auto setup = BakeSetup::make(scene, job.bake);
     if (!setup) return setup.error();
@@ -102,7 +104,7 @@ Status fill_up_from(const Bake& finished, const BakeSetup& setup, std::vector<Li
     return Done{};
 }
 
-/// Denoises the pages; `merge` may then complete them; closes seams, dilates, and fits the codec's coefficients.
+/// Denoises the pages; `complete` may then add texels from elsewhere; closes seams, dilates, and fits the codec's coefficients.
 template <class Complete>
 Status finish(BakeWork& work, const FinishOptions& steps, const BakeSession& session, const Complete& complete) {
     const BakeSetup& setup = *work.setup;
@@ -121,10 +123,17 @@ Status finish(BakeWork& work, const FinishOptions& steps, const BakeSession& ses
     if (auto status = complete(pages); !status) return status;
     const bool fitted = pages.front().planes.size() != setup.encoding.page_channels().count();
     if (steps.seams == Switch::on) {
-        SeamSurroundings around{setup.tracer.get(), {}};
-        if (setup.options.push_out == Switch::on) around.displaced = displaced_texels(setup.atlas, map, *setup.tracer);
-        if (!fitted) close_seams(pages, setup.encoding.page_channels(), setup.atlas, {}, around);
-        taken.emplace_back("seams");
+        if (fitted) {
+            warn(work.bake, session,
+                 "seams around the object are not closed: the coefficients of " +
+                     setup.encoding.codec()->name().basis + " are not linear in the light");
+        } else {
+            SeamSurroundings around{setup.tracer.get(), {}};
+            if (setup.options.push_out == Switch::on)
+                around.displaced = displaced_texels(setup.atlas, map, *setup.tracer);
+            close_seams(pages, setup.encoding.page_channels(), setup.atlas, {}, around);
+            taken.emplace_back("seams");
+        }
     }
     if (steps.dilate == Switch::on) {
         dilate(pages);
@@ -199,6 +208,7 @@ Result<Bake> merge_bake(const Scene& scene, const BakeJob& job, std::span<const 
     if (auto status = check_folder(session.folder); !status) return status.error();
     std::vector<fs::path> checkpoints;
     for (const fs::path& shard : shards) checkpoints.push_back(checkpoint_folder(shard));
+    if (const auto valid = check(job); !valid) return valid.error();
     {
         const auto setup = BakeSetup::make(scene, job.bake);
         if (!setup) return setup.error();
@@ -212,6 +222,8 @@ Result<Bake> merge_bake(const Scene& scene, const BakeJob& job, std::span<const 
 
 Result<Bake> rebake_object(const Scene& scene, const BakeJob& job, std::string_view object, Bake there,
                            BakeSession& session) {
+    if (!session.folder.empty())
+        if (auto status = check_folder(session.folder); !status) return status.error();
     BakeJob of_object = job;
     of_object.bake.only_object = std::string(object);
     return with_threads(job, [&]() -> Result<Bake> {
@@ -233,6 +245,7 @@ Result<Bake> rebake_object(const Scene& scene, const BakeJob& job, std::string_v
         if (status = write(*work, job, session); !status) return status.error();
 
         // Remove the states, which do not hold the new texels.
+        if (session.folder.empty()) return std::move(work->bake);
         std::error_code code;
         const fs::path states = checkpoint_folder(session.folder);
         for (std::size_t region = 0; fs::remove(region_file(states, region), code);) ++region;
@@ -242,6 +255,7 @@ Result<Bake> rebake_object(const Scene& scene, const BakeJob& job, std::string_v
 
 Result<Preflight> preflight(const Scene& scene, const BakeJob& job) {
     return with_threads(job, [&]() -> Result<Preflight> {
+        if (const auto valid = check(job); !valid) return valid.error();
         if (const auto textures = PageTextures::make(job.bake.codec, job.storages); !textures) return textures.error();
         const auto setup = BakeSetup::make(scene, job.bake);
         if (!setup) return setup.error();

@@ -31,7 +31,7 @@ Status check(const BakeJob& job) {
              Range{"samples", static_cast<double>(bake.samples), 1, 1e6},
              Range{"bounces", static_cast<double>(bake.paths.bounces), 0, 64},
              Range{"threads", static_cast<double>(bake.threads), 0, 1024},
-             Range{"memory", static_cast<double>(bake.memory), 64 << 20, 1e15},
+             Range{"memory", static_cast<double>(bake.memory), 1 << 20, 1e15},
              Range{"time", bake.most_seconds.value_or(1), 0.1, 1e7},
              Range{"target error", bake.target_error.value_or(1), 1e-4, 1},
              Range{"probe spacing", probes.spacing, 0.001, 10000},

@@ -7,10 +7,10 @@ namespace lobelia {
 namespace {
 
 /// Points beyond the square are not drawn, but must not cost time either.
-struct Box {
+struct UvBox {
     std::size_t begin, end;
 };
-Box clipped(float low, float high, std::size_t grid) {
+UvBox clipped(float low, float high, std::size_t grid) {
     const auto cut = [&](float x) { return std::clamp(static_cast<double>(x), 0.0, static_cast<double>(grid)); };
     return {static_cast<std::size_t>(cut(low)), static_cast<std::size_t>(std::ceil(cut(high)))};
 }
@@ -26,8 +26,8 @@ void for_each_point(const std::array<Vec2, 3>& t, std::size_t grid, Visit visit)
     std::array<std::array<double, 2>, 3> p;
     for (std::size_t k = 0; k < 3; ++k) p[k] = {static_cast<double>(t[k].x), static_cast<double>(t[k].y)};
     if (turn(p[0], p[1], p[2]) < 0) std::swap(p[1], p[2]);
-    const Box columns = clipped(std::min({t[0].x, t[1].x, t[2].x}), std::max({t[0].x, t[1].x, t[2].x}), grid);
-    const Box rows = clipped(std::min({t[0].y, t[1].y, t[2].y}), std::max({t[0].y, t[1].y, t[2].y}), grid);
+    const UvBox columns = clipped(std::min({t[0].x, t[1].x, t[2].x}), std::max({t[0].x, t[1].x, t[2].x}), grid);
+    const UvBox rows = clipped(std::min({t[0].y, t[1].y, t[2].y}), std::max({t[0].y, t[1].y, t[2].y}), grid);
     constexpr double k_edge = 1e-9;
     for (std::size_t y = rows.begin; y < rows.end; ++y)
         for (std::size_t x = columns.begin; x < columns.end; ++x) {

@@ -23,7 +23,7 @@ Result<LoadedScene> read_or_make(const SceneSource& source) {
     const auto names = embedded_scene_names();
     auto scene = embedded_scene(source.path);
     if (scene && !std::filesystem::is_regular_file(source.path, code)) {
-        return LoadedScene{*std::move(scene), {}, {}};
+        return LoadedScene{*std::move(scene)};
     }
     if (std::filesystem::exists(source.path, code)) {
         GltfReadOptions read;
@@ -74,6 +74,7 @@ Result<LoadedScene> load_scene(const SceneSource& source) {
     if (const auto status = set_environment(*scene, source); !status) return status.error();
     if (const auto status = check_scene(scene->scene); !status)
         return Error{source.path + ": " + status.error().message};
+    scene->source = source;
     return scene;
 }
 

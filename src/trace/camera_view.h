@@ -44,8 +44,6 @@ class CameraView {
     /// sample, and the same as the path tracer's.
     void look(std::span<const PathStart> rays, std::span<Sight> out) const;
 
-    /// Whether look() could find anything but paths.
-    [[nodiscard]] bool has_more_than_paths() const { return more_than_paths_; }
     [[nodiscard]] const Surfaces& surfaces() const { return surfaces_; }
     /// The colour of an unlit surface.
     [[nodiscard]] Rgb unlit_color(const PathTracer::Hit& hit) const;

@@ -10,13 +10,10 @@
 #include <algorithm>
 #include <cassert>
 #include <cstring>
-#include <limits>
 #include <new>
 
 namespace lobelia {
 namespace {
-
-constexpr float k_infinite = std::numeric_limits<float>::infinity();
 
 #if LOBELIA_EMBREE == 3
 using Context = RTCIntersectContext;

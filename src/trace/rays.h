@@ -3,11 +3,14 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "scene/world.h"
 
 namespace lobelia {
+
+inline constexpr float k_infinite = std::numeric_limits<float>::infinity();
 
 /// The first triangle on a ray.
 struct RayHit {

@@ -3,12 +3,10 @@
 #include "trace/transport.h"
 
 #include <cassert>
-#include <limits>
 
 namespace lobelia {
 namespace {
 
-constexpr float k_infinite = std::numeric_limits<float>::infinity();
 /// A front this much farther away, relatively, lies on the same spot as the back that was met.
 constexpr float k_same_spot = 1e-5f;
 

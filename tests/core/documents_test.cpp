@@ -10,6 +10,8 @@
 #include <sstream>
 #include <vector>
 
+#include "folders.h"
+
 namespace lobelia {
 namespace {
 
@@ -18,15 +20,9 @@ namespace fs = std::filesystem;
 const fs::path k_docs = LOBELIA_DOCS_DIR;
 const fs::path k_root = k_docs.parent_path();
 
-std::string file_text(const fs::path& path) {
-    std::ostringstream text;
-    text << std::ifstream(path).rdbuf();
-    return text.str();
-}
-
 /// Returns the lines of a Markdown file outside of fenced code blocks.
 std::vector<std::string> prose_of(const fs::path& path) {
-    std::istringstream text(file_text(path));
+    std::istringstream text(test::contents(path));
     std::vector<std::string> lines;
     bool fenced = false;
     for (std::string line; std::getline(text, line);) {

@@ -120,6 +120,19 @@ inline bool all_finite(ColourView a) {
         if (!std::all_of(a.channel(k), a.channel(k) + a.size, [](float v) { return std::isfinite(v); })) return false;
     return true;
 }
+/// Colours uniform in [-1, 1) per channel.
+inline std::vector<Rgb> random_colours(std::size_t count, std::uint32_t seed) {
+    std::mt19937 generator(seed);
+    const auto uniform = [&] { return static_cast<float>(generator()) * 0x1p-31f - 1; };
+    std::vector<Rgb> c(count);
+    for (Rgb& v : c) v = {uniform(), uniform(), uniform()};
+    return c;
+}
+/// A rotation that takes +z to the unit vector `n`.
+inline Rotation rotation_to(Vec3 n) {
+    const Vec3 t = normalize(cross(std::abs(n.x) < 0.9f ? Vec3{1, 0, 0} : Vec3{0, 1, 0}, n)), b = cross(n, t);
+    return {Vec3{t.x, b.x, n.x}, Vec3{t.y, b.y, n.y}, Vec3{t.z, b.z, n.z}};
+}
 inline float least(ColourView a) {
     float result = INFINITY;
     for (std::size_t k = 0; k < 3; ++k)

@@ -158,8 +158,8 @@ bool Atlas::objects_overlap() const {
     std::vector<std::uint32_t> owner(k_tile * k_tile);
     for (std::size_t tile = 0; tile < tiles(); ++tile) {
         const TexelBox box = box_of_tile(tile);
-        constexpr std::uint32_t k_nobody = 0xffffffff;
-        std::fill(owner.begin(), owner.end(), k_nobody);
+        constexpr std::uint32_t k_no_triangle = 0xffffffff;
+        std::fill(owner.begin(), owner.end(), k_no_triangle);
         for (const std::uint32_t t : triangles_of_tile(tile)) {
             const PageTriangle triangle(texel_triangle(t));
             const TexelBox part = box_of(t, triangle, box);
@@ -167,7 +167,7 @@ bool Atlas::objects_overlap() const {
                 for (int x = part.x0; x < part.x1; ++x) {
                     std::uint32_t& other = owner[static_cast<std::size_t>(y - box.y0) * k_tile + (x - box.x0)];
                     if (other == world_->object[t] || !triangle.contains({x + 0.5, y + 0.5}, k_margin)) continue;
-                    if (other != k_nobody) return true;
+                    if (other != k_no_triangle) return true;
                     other = world_->object[t];
                 }
         }

@@ -4,6 +4,8 @@
 #include <bit>
 #include <numeric>
 
+#include "core/math/hash.h"
+
 namespace lobelia {
 namespace {
 
@@ -35,15 +37,6 @@ Key key_of(const World& world, std::uint32_t object, std::uint32_t vertex) {
     return {object, bits(p.x), bits(p.y), bits(p.z), bits(uv.x), bits(uv.y)};
 }
 
-std::uint64_t hash(const Key& key) {
-    std::uint64_t h = 0x9e3779b97f4a7c15u;
-    for (const std::uint32_t word : key) {
-        h = (h ^ word) * 0xff51afd7ed558ccdu;
-        h ^= h >> 32;
-    }
-    return h;
-}
-
 /// Finds the first vertex that had the same key. Open addressing: a table of at least twice as many places.
 class Welder {
   public:
@@ -51,7 +44,7 @@ class Welder {
     [[nodiscard]] std::uint32_t first_like(std::uint32_t vertex, const Key& key) {
         const std::size_t mask = table_.size() - 1;
         keys_[vertex] = key;
-        for (std::size_t i = hash(key) & mask;; i = (i + 1) & mask) {
+        for (std::size_t i = hash_of(key) & mask;; i = (i + 1) & mask) {
             if (table_[i] == k_free) table_[i] = vertex;
             if (keys_[table_[i]] == key) return table_[i];
         }

@@ -8,32 +8,25 @@
 #include <cmath>
 #include <tuple>
 
+#include "core/math/hash.h"
+
 namespace lobelia {
 namespace {
 
-constexpr std::uint32_t k_nobody = 0xffffffff;
+constexpr std::uint32_t k_no_vertex = 0xffffffff;
 
 using Cell = std::array<std::int64_t, 3>;
-
-std::uint64_t hash(const Cell& cell) {
-    std::uint64_t h = 0x9e3779b97f4a7c15u;
-    for (const std::int64_t i : cell) {
-        h = (h ^ static_cast<std::uint64_t>(i)) * 0xff51afd7ed558ccdu;
-        h ^= h >> 32;
-    }
-    return h;
-}
 
 /// Welded vertices by the cell that they lie in: chains in a table of hashes.
 class Grid {
   public:
     /// Cells are twice as wide as the tolerance, so that what is near lies in one of eight.
     Grid(std::size_t vertices, double tolerance)
-        : width_(2 * tolerance), first_(std::bit_ceil(2 * vertices + 1), k_nobody), next_(vertices, k_nobody) {}
+        : width_(2 * tolerance), first_(std::bit_ceil(2 * vertices + 1), k_no_vertex), next_(vertices, k_no_vertex) {}
 
     /// The chain of the cell that holds `p` moved by `shift` half cells.
     [[nodiscard]] std::uint32_t& chain(Vec3 p, const Cell& shift) {
-        return first_[hash(cell(p, shift)) & (first_.size() - 1)];
+        return first_[hash_of(cell(p, shift)) & (first_.size() - 1)];
     }
     [[nodiscard]] std::uint32_t next(std::uint32_t v) const { return next_[v]; }
     void insert(std::uint32_t v, Vec3 p) {
@@ -67,14 +60,14 @@ std::vector<std::uint32_t> weld_positions(const World& world, float tolerance) {
     for (std::uint32_t v = 0; v < count; ++v) {
         const Vec3 p = world.positions[v];
         // Look into the eight cells that a cube of twice the tolerance may touch.
-        std::uint32_t found = k_nobody;
+        std::uint32_t found = k_no_vertex;
         for (std::int64_t corner = 0; corner < 8; ++corner) {
             const Cell shift{(corner & 1) * 2 - 1, (corner >> 1 & 1) * 2 - 1, (corner >> 2) * 2 - 1};
-            for (std::uint32_t u = grid.chain(p, shift); u != k_nobody; u = grid.next(u))
+            for (std::uint32_t u = grid.chain(p, shift); u != k_no_vertex; u = grid.next(u))
                 if (u < found && length(world.positions[u] - p) <= near) found = u;
         }
-        welded[v] = found == k_nobody ? v : found;
-        if (found == k_nobody) grid.insert(v, p);
+        welded[v] = found == k_no_vertex ? v : found;
+        if (found == k_no_vertex) grid.insert(v, p);
     }
     return welded;
 }

@@ -21,7 +21,7 @@ constexpr float k_first_reach = 1.5f;
 /// Objects stand within objects; but who is not out after this many steps stays in.
 constexpr int k_most_steps = 3;
 /// Texels looked at at a time.
-constexpr std::size_t k_batch = 64;
+constexpr std::size_t k_texels_at_once = 64;
 
 /// Unit vector of the plane across `normal`; all turns from 0 to 1 go once around.
 Vec3 along_surface(Vec3 normal, float turn) {
@@ -169,8 +169,8 @@ void Pusher::run(std::span<const TexelReach> reach, std::span<Receiver> texels) 
 void push_out(const PathTracer& tracer, std::span<const TexelReach> reach, std::span<Receiver> texels) {
     assert(reach.size() == texels.size());
     Pusher pusher(tracer);
-    for (std::size_t begin = 0; begin < texels.size(); begin += k_batch) {
-        const std::size_t count = std::min(k_batch, texels.size() - begin);
+    for (std::size_t begin = 0; begin < texels.size(); begin += k_texels_at_once) {
+        const std::size_t count = std::min(k_texels_at_once, texels.size() - begin);
         pusher.run(reach.subspan(begin, count), texels.subspan(begin, count));
     }
 }

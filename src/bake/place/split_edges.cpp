@@ -2,8 +2,11 @@
 #include "bake/place/split_edges.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <tuple>
+
+#include "core/math/hash.h"
 
 namespace lobelia {
 namespace {
@@ -57,12 +60,7 @@ class VertexGrid {
         return static_cast<std::int64_t>(std::clamp(std::floor(x / width_), -0x1p52, 0x1p52));
     }
     static std::uint64_t key(std::int64_t x, std::int64_t y, std::int64_t z) {
-        std::uint64_t h = 0x9e3779b97f4a7c15u;
-        for (const std::int64_t i : {x, y, z}) {
-            h = (h ^ static_cast<std::uint64_t>(i)) * 0xff51afd7ed558ccdu;
-            h ^= h >> 32;
-        }
-        return h;
+        return hash_of(std::array{x, y, z});
     }
     template <class Visit>
     bool visit_cell(std::uint64_t of_cell, const Visit& visit) const {

@@ -8,7 +8,7 @@
 namespace lobelia {
 namespace {
 
-constexpr std::uint32_t k_nobody = 0xffffffff;
+constexpr std::uint32_t k_no_triangle = 0xffffffff;
 
 /// Which triangle owns each texel of one tile.
 struct TileOwners {
@@ -30,7 +30,7 @@ bool own_by_centre(const Atlas& atlas, std::size_t tile, TileOwners& out) {
         for (int y = part.y0; y < part.y1; ++y)
             for (int x = part.x0; x < part.x1; ++x) {
                 std::uint32_t& owner = out.owner[index_in(box, x, y)];
-                if (owner != k_nobody || !triangle.contains({x + 0.5, y + 0.5})) continue;
+                if (owner != k_no_triangle || !triangle.contains({x + 0.5, y + 0.5})) continue;
                 owner = t;
                 if (--left == 0) return false;
             }
@@ -47,7 +47,7 @@ void own_by_cover(const Atlas& atlas, std::size_t tile, TileOwners& out) {
         for (int y = part.y0; y < part.y1; ++y)
             for (int x = part.x0; x < part.x1; ++x) {
                 const std::size_t i = index_in(box, x, y);
-                const bool by_centre = out.owner[i] != k_nobody && out.cover[i] == 0;
+                const bool by_centre = out.owner[i] != k_no_triangle && out.cover[i] == 0;
                 if (by_centre || !triangle.may_touch({x, y, x + 1, y + 1})) continue;
                 const auto cover = static_cast<float>(triangle.part_in(x, y).area());
                 if (cover < static_cast<float>(k_least_cover) || cover <= out.cover[i]) continue;
@@ -62,13 +62,13 @@ template <class Visit>
 void for_each_owned(const Atlas& atlas, std::size_t tile, const Visit& visit) {
     if (atlas.triangles_of_tile(tile).empty()) return;
     TileOwners owners;
-    owners.owner.fill(k_nobody);
+    owners.owner.fill(k_no_triangle);
     owners.cover.fill(0);
     if (own_by_centre(atlas, tile, owners)) own_by_cover(atlas, tile, owners);
     const TexelBox box = atlas.box_of_tile(tile);
     for (int y = box.y0; y < box.y1; ++y)
         for (int x = box.x0; x < box.x1; ++x)
-            if (const std::uint32_t owner = owners.owner[index_in(box, x, y)]; owner != k_nobody) visit(x, y, owner);
+            if (const std::uint32_t owner = owners.owner[index_in(box, x, y)]; owner != k_no_triangle) visit(x, y, owner);
 }
 
 }  // namespace

@@ -16,12 +16,12 @@ namespace {
 static_assert(std::endian::native == std::endian::little);
 
 constexpr std::array<char, 8> k_magic{'L', 'O', 'B', 'S', 'T', 'A', 'T', 'E'};
-constexpr std::uint32_t k_version = 1;
+constexpr std::uint32_t k_checkpoint_version = 1;
 
 /// The beginning of the file.
 struct FileHeader {
     std::array<char, 8> magic = k_magic;
-    std::uint32_t version = k_version;
+    std::uint32_t version = k_checkpoint_version;
     std::uint32_t checksum = 0;  ///< CRC-32 of the region header and the states
     RegionHeader region;
 };
@@ -65,9 +65,9 @@ Result<RegionStates> RegionStates::read(const std::filesystem::path& path) {
     if (const Status status = file->read(0, begin); !status) return status.error();
     std::memcpy(&start, begin.data(), sizeof start);
     if (start.magic != k_magic) return bad("this is not a checkpoint of Lobelia");
-    if (start.version != k_version)
+    if (start.version != k_checkpoint_version)
         return bad(
-            fmt::format("this checkpoint has version {}; this program reads version {}", start.version, k_version));
+            fmt::format("this checkpoint has version {}; this program reads version {}", start.version, k_checkpoint_version));
     constexpr std::uint64_t most_floats = std::uint64_t{1} << 40;
     const RegionHeader& region = start.region;
     if (region.floats == 0 || region.sites > most_floats / region.floats ||

@@ -6,16 +6,15 @@
 #include "bake/session/checkpoint.h"
 #include "bake/write/bake_fields.h"
 #include "bake/write/page_files.h"
-#include "bake/write/stored_codec.h"
 #include "io/folders.h"
 #include "io/read_file.h"
 
 namespace lobelia {
 namespace {
 
-constexpr std::uint64_t k_version = 2;
+constexpr std::uint64_t k_job_version = 2;
 constexpr std::uint64_t k_any_size = std::uint64_t{1} << 40;
-constexpr std::uint64_t k_most_side = 16384;
+constexpr std::uint64_t k_largest_page = 16384;
 
 std::filesystem::path job_file(const std::filesystem::path& checkpoint) { return checkpoint / "job.json"; }
 
@@ -71,8 +70,8 @@ void fields(auto& archive, FinishOptions& steps) {
 void fields(auto& archive, ReportOptions& report) {
     flag(archive, "write", report.write);
     archive.whole("samples", report.samples, 1, k_any_u32);
-    archive.whole("width", report.width, 1, k_most_side);
-    archive.whole("height", report.height, 1, k_most_side);
+    archive.whole("width", report.width, 1, k_largest_page);
+    archive.whole("height", report.height, 1, k_largest_page);
 }
 
 /// Threads and time limits belong to each session; the regions of a checkpoint depend on the memory.
@@ -80,8 +79,8 @@ void fields(auto& archive, BakeJob& job) {
     archive.group("scene", job.scene);
     archive.text("codec", job.bake.codec);
     archive.choice("frame", job.bake.frame, k_frame_names);
-    archive.whole("width", job.bake.atlas.width, 1, k_most_side);
-    archive.whole("height", job.bake.atlas.height, 1, k_most_side);
+    archive.whole("width", job.bake.atlas.width, 1, k_largest_page);
+    archive.whole("height", job.bake.atlas.height, 1, k_largest_page);
     archive.whole("memory", job.bake.memory, 0, k_any_u64);
     archive.group("bake", job.bake);
     archive.group("finish", job.finish);
@@ -93,7 +92,7 @@ void fields(auto& archive, BakeJob& job) {
 
 Status save_job(const std::filesystem::path& checkpoint, const BakeJob& job) {
     JsonFieldWriter writer;
-    writer.whole("lobelia_bake_job", k_version, 0, k_version);
+    writer.whole("lobelia_bake_job", k_job_version, 0, k_job_version);
     BakeJob copy = job;
     fields(writer, copy);
     const std::string text = writer.object.dump(1) + "\n";
@@ -109,13 +108,13 @@ Result<BakeJob> read_job(const std::filesystem::path& folder) {
     const auto text = read_text(path, 1);
     if (!text) return text.error();
     return read_json(*text, path, [&](const JsonPlace& top) {
-        if (top.at("lobelia_bake_job").whole(0, k_any_u64) != k_version)
-            top.at("lobelia_bake_job").refuse(fmt::format("this program reads version {}", k_version));
+        if (top.at("lobelia_bake_job").whole(0, k_any_u64) != k_job_version)
+            top.at("lobelia_bake_job").refuse(fmt::format("this program reads version {}", k_job_version));
         BakeJob job;
         JsonFieldReader reader(top);
         fields(reader, job);
         for (const std::string& codec : {job.bake.codec, job.probes.value_or(ProbeOptions()).codec})
-            if (const auto name = stored_codec_name(codec); !codec.empty() && !name) top.refuse(name.error().message);
+            if (const auto name = parse_codec_name(codec); !codec.empty() && !name) top.refuse(name.error().message);
         return job;
     });
 }

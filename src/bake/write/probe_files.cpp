@@ -1,8 +1,6 @@
 // Probes as two files: probes.json says what there is, probes.bin holds the coefficients.
 #include "bake/write/probe_files.h"
 
-#include "bake/write/stored_codec.h"
-
 #include <fmt/format.h>
 
 #include <bit>
@@ -63,7 +61,7 @@ std::vector<float> read_shares(const JsonPlace& place, std::size_t size) {
 
 void read_codec(const JsonPlace& top, ProbeSet& probes) {
     probes.codec = top.at("codec").text();
-    const auto name = stored_codec_name(probes.codec);
+    const auto name = parse_codec_name(probes.codec);
     if (!name) top.at("codec").refuse(name.error().message);
     const auto basis = make_basis(name->basis);
     if (!basis) top.at("codec").refuse(basis.error().message);

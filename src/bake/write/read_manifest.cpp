@@ -8,7 +8,6 @@
 #include "bake/write/bake_fields.h"
 #include "bake/write/manifest.h"
 #include "bake/write/page_files.h"
-#include "bake/write/stored_codec.h"
 #include "core/storage/layout_text.h"
 #include "io/read_file.h"
 #include "lobelia/storage.h"
@@ -16,7 +15,7 @@
 namespace lobelia {
 namespace {
 
-constexpr std::uint64_t k_most_side = 65536, k_most_pages = 4096, k_most_objects = 1u << 24, k_most_textures = 65536,
+constexpr std::uint64_t k_largest_side = 65536, k_most_pages = 4096, k_most_objects = 1u << 24, k_most_textures = 65536,
                         k_most_warnings = 4096;
 
 void read_scene(const JsonPlace& scene, Manifest& m) {
@@ -38,7 +37,7 @@ void read_codec(const JsonPlace& codec, Manifest& m) {
         if (stated != 0) codec.at("coefficients").refuse("there is no codec, so there can be no coefficients");
         return;
     }
-    const auto name = stored_codec_name(m.options.codec);
+    const auto name = parse_codec_name(m.options.codec);
     if (!name) codec.at("name").refuse(name.error().message);
     const auto basis = make_basis(name->basis);
     if (!basis) codec.at("name").refuse(basis.error().message);
@@ -102,8 +101,8 @@ PageEntry read_page_entry(const JsonPlace& place, KnownTextures& known) {
 }
 
 void read_layout(const JsonPlace& layout, Manifest& m) {
-    m.width = layout.at("width").whole(1, k_most_side);
-    m.height = layout.at("height").whole(1, k_most_side);
+    m.width = layout.at("width").whole(1, k_largest_side);
+    m.height = layout.at("height").whole(1, k_largest_side);
     m.options.atlas.width = m.width;
     m.options.atlas.height = m.height;
     m.precision = static_cast<Precision>(layout.at("precision").one_of(k_precision_names));

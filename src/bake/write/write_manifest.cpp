@@ -12,7 +12,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr const char* k_version = LOBELIA_VERSION;
+constexpr const char* k_program_version = LOBELIA_VERSION;
 
 ordered_json or_null(const std::optional<std::string>& text) { return text ? ordered_json(*text) : ordered_json(); }
 
@@ -65,7 +65,7 @@ ordered_json all_fields(T value) {
 
 Manifest make_manifest(const Scene& scene, const Atlas& atlas, const BakeOptions& options) {
     Manifest m;
-    m.program = k_version;
+    m.program = k_program_version;
     m.scene_name = scene.name;
     m.scene_hash = scene_hash(scene);
     m.coefficients = options.codec.empty() ? 0 : make_codec(options.codec).value().basis().size();

@@ -121,11 +121,6 @@ double sharpness_from_mean_cosine(double r) {
     return s;
 }
 
-double sharpness_from_falloff(double value, double cosine) {
-    assert(value > 0 && value < 1 && cosine < 1);
-    return std::log(value) / (cosine - 1);
-}
-
 std::vector<double> irradiance_series(double sharpness, double tolerance) {
     // Ratios r_l = i_l / i_{l-1} by backward recurrence, well past the last term that counts.
     const auto last = static_cast<std::size_t>(20 + 9 * std::sqrt(sharpness));

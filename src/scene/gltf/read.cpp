@@ -96,7 +96,7 @@ class SceneReader {
         if (const Status s = check_scene(scene_); !s)
             throw JsonRefusal(fmt::format("{}: {}", document_.json.file(), s.error().message));
         warn_of_totals(context.totals);
-        LoadedScene loaded{std::move(scene_), std::move(document_.warnings), {}};
+        LoadedScene loaded{std::move(scene_), std::move(document_.warnings)};
         constexpr std::size_t k_most_parts = 8;
         for (const JsonPlace& part : context.totals.without_uv)
             if (loaded.parts_without_lightmap_uv.size() < k_most_parts)

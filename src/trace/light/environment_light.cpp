@@ -11,9 +11,6 @@ namespace {
 
 constexpr auto k_uniform_pdf = static_cast<float>(1 / (4 * k_pi));
 
-/// Luminance, never below 0 whatever an image holds.
-float brightness(Rgb radiance) { return std::max(0.0f, luminance(radiance)); }
-
 }  // namespace
 
 EnvironmentLight::EnvironmentLight(const Image& image, Choice choice) : image_(&image), choice_(choice) {

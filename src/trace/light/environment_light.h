@@ -2,6 +2,7 @@
 // Pharr, Jakob and Humphreys 2023, 12.5 (the idea); Vose 1991 (alias tables).
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "core/sample/sequence.h"
@@ -9,6 +10,9 @@
 #include "lobelia/sampling.h"
 
 namespace lobelia {
+
+/// Luminance, never below 0 whatever an image holds.
+[[nodiscard]] inline float brightness(Rgb radiance) { return std::max(0.0f, luminance(radiance)); }
 
 /// A direction towards the environment.
 struct EnvironmentSample {

@@ -9,7 +9,6 @@
 namespace lobelia {
 namespace {
 
-constexpr float k_infinite = std::numeric_limits<float>::infinity();
 
 /// Uniform over the spherical cap about z whose rim has cosine 1 - flatness; exact for the smallest discs.
 Vec3 cap_direction(float flatness, Pair point) {

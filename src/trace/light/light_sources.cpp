@@ -9,8 +9,6 @@ namespace {
 /// More suns than this are chosen between by power alone.
 constexpr std::size_t k_single_suns = 16;
 
-float brightness(Rgb c) { return std::max(0.0f, luminance(c)); }
-
 }  // namespace
 
 Lights::Lights(const Scene& scene, const Surfaces& surfaces, const PathOptions& options)
