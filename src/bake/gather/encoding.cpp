@@ -1,4 +1,4 @@
-// The codec of a bake, and how its encoder is fed.
+// The codec of a bake, and the feeding of its encoder.
 #include "bake/gather/encoding.h"
 
 namespace lobelia {

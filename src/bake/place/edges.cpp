@@ -1,4 +1,4 @@
-// Welding by a grid of cells, hashed; edges sorted by their welded ends.
+// Welds vertices by a hashed grid; sorts edges by their welded ends.
 #include "bake/place/edges.h"
 
 #include <oneapi/tbb/parallel_sort.h>
@@ -24,14 +24,14 @@ std::uint64_t hash(const Cell& cell) {
     return h;
 }
 
-/// Welded vertices by the cell that they lie in: chains in a table of hashes.
+/// Welded vertices by cell: chains in a hash table.
 class Grid {
   public:
-    /// Cells are twice as wide as the tolerance, so that what is near lies in one of eight.
+    /// Makes cells twice as wide as the tolerance, so that all near vertices lie in eight cells.
     Grid(std::size_t vertices, double tolerance)
         : width_(2 * tolerance), first_(std::bit_ceil(2 * vertices + 1), k_nobody), next_(vertices, k_nobody) {}
 
-    /// The chain of the cell that holds `p` moved by `shift` half cells.
+    /// Returns the chain of the cell that holds `p` moved by `shift` half cells.
     [[nodiscard]] std::uint32_t& chain(Vec3 p, const Cell& shift) {
         return first_[hash(cell(p, shift)) & (first_.size() - 1)];
     }
@@ -44,7 +44,7 @@ class Grid {
 
   private:
     [[nodiscard]] Cell cell(Vec3 p, const Cell& shift) const {
-        // Beyond 2^52 cells, positions are farther apart than the tolerance anyhow.
+        // Beyond 2^52 cells, different positions are farther apart than the tolerance.
         const auto along = [&](float x, std::int64_t s) {
             return static_cast<std::int64_t>(
                 std::clamp(std::floor(x / width_ + 0.5 * static_cast<double>(s)), -0x1p52, 0x1p52));
@@ -60,13 +60,13 @@ class Grid {
 
 std::vector<std::uint32_t> weld_positions(const World& world, float tolerance) {
     const auto count = static_cast<std::uint32_t>(world.positions.size());
-    // Zero would be a grid without cells; a float near 1 is not finer than this.
+    // Keep the grid's cells above zero width; floats near 1 are not finer than this.
     const float near = std::max(tolerance, 1e-8f);
     Grid grid(count, near);
     std::vector<std::uint32_t> welded(count);
     for (std::uint32_t v = 0; v < count; ++v) {
         const Vec3 p = world.positions[v];
-        // Look into the eight cells that a cube of twice the tolerance may touch.
+        // Search the eight cells that a cube of twice the tolerance may touch.
         std::uint32_t found = k_nobody;
         for (std::int64_t corner = 0; corner < 8; ++corner) {
             const Cell shift{(corner & 1) * 2 - 1, (corner >> 1 & 1) * 2 - 1, (corner >> 2) * 2 - 1};

@@ -1,4 +1,4 @@
-// Objects of a scene as they are addressed, and their texels.
+// Finds objects by name or index, and their texels.
 #include "bake/place/objects.h"
 
 #include <fmt/format.h>
