@@ -1,4 +1,4 @@
-// A scene's fingerprint: words of 64 bits, mixed in by multiplication, field after field.
+// A scene's hash: 64-bit words, mixed in by multiplication, field after field.
 #include "scene/scene_hash.h"
 
 #include <bit>
@@ -10,11 +10,12 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "the bytes of arrays are hashed as little-endian words");
 
-/// Each word is a bijection of the state: two inputs of equal length that differ in one word never collide.
+/// Mixing a word is a bijection of the state: two inputs of equal length that differ in one word never collide.
 class Hash {
   public:
     void word(std::uint64_t value) {
-        // 2^64 over the golden ratio, odd: spreads low bits upwards; the shift brings high bits down again.
+        // The factor is 2^64 over the golden ratio, odd: it spreads low bits upwards; the shift brings high bits down
+        // again.
         state_ = (state_ ^ value) * 0x9e3779b97f4a7c15u;
         state_ ^= state_ >> 32;
     }
@@ -33,7 +34,7 @@ class Hash {
     [[nodiscard]] std::uint64_t value() const { return state_; }
 
   private:
-    std::uint64_t state_ = 0x6c6f62656c696131u;  ///< "lobelia1": zeros count, too
+    std::uint64_t state_ = 0x6c6f62656c696131u;  ///< "lobelia1": so that leading zeros change the hash
 };
 
 void add(Hash& hash, float value) { hash.word(std::bit_cast<std::uint32_t>(value)); }
@@ -44,7 +45,7 @@ requires std::is_enum_v<T> ||(std::is_integral_v<T> && !std::is_same_v<T, bool>)
     hash.word(static_cast<std::uint64_t>(value));
 }
 
-// Types without padding are hashed as they lie in memory, whole arrays at once.
+// Hashes types without padding as bytes, whole arrays at once.
 template <class T>
 concept Packed = std::is_same_v<T, Vec2> || std::is_same_v<T, Vec3> || std::is_same_v<T, Rgb> ||
     std::is_same_v<T, std::uint32_t> || std::is_same_v<T, std::array<float, 4>> ||
@@ -73,7 +74,7 @@ void add(Hash& hash, const Transform& t) {
 }
 void add(Hash& hash, const Texture& t) {
     add_all(hash, t.name, t.width, t.height, t.texels, t.wrap_u, t.wrap_v);
-    // Fields of a later date count only where they are set: hashes of older scenes stay.
+    // Hash fields added later only if they are set, so that hashes of older scenes stay the same.
     if (t.filter != Texture::Filter::linear) add(hash, t.filter);
 }
 void add(Hash& hash, const TextureUse& use) {
