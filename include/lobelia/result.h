@@ -1,4 +1,4 @@
-// What a function returns when its input may be bad: a value, or an error that names file, place and remedy.
+// The result of a function whose input may be bad: a value, or an error that names file, place and remedy.
 #pragma once
 
 #include <cassert>
@@ -8,7 +8,7 @@
 
 namespace lobelia {
 
-/// Why bad input was refused: one or two sentences for a person, naming the file and the place in it.
+/// The reason why bad input was refused: one or two sentences for a person, naming the file and the place in it.
 struct Error {
     std::string message;
 };
