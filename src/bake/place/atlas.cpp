@@ -32,9 +32,9 @@ Status check(const World& world, const AtlasOptions& options) {
     if (options.padding > k_most_side)
         return Error{fmt::format("padding of {} texels: at most {}", options.padding, k_most_side)};
     if (const auto& d = options.texels_per_metre; d && !(*d > 0 && std::isfinite(*d)))
-        return Error{fmt::format("{} texels per metre: it must be more than 0", *d)};
+        return Error{fmt::format("{} texels per metre: must be above 0", *d)};
     if (options.texels_per_metre && options.layout == AtlasOptions::Layout::shared)
-        return Error{"texels per metre size each object for itself, and so need the packed layout"};
+        return Error{"texels per metre set the size of each object, which requires the packed layout"};
     if (std::none_of(world.has_lightmap_uv.begin(), world.has_lightmap_uv.end(), [](auto has) { return has != 0; }))
         return Error{"no object has lightmap UVs; `lobelia unwrap` makes them"};
     return Done{};
@@ -76,7 +76,7 @@ Status Atlas::place(const AtlasOptions& options, AtlasOptions::Layout layout) {
         result = std::move(*packed);
     }
     if (result.pages > k_most_texels / (width_ * height_))
-        return Error{fmt::format("the atlas would have {} pages of {} x {} texels: ask for fewer texels per metre",
+        return Error{fmt::format("the atlas would have {} pages of {} x {} texels: choose fewer texels per metre",
                                  result.pages, width_, height_)};
     layout_ = layout;
     placements_ = std::move(result.placements);
@@ -138,7 +138,7 @@ Status Atlas::fill_tiles() {
         });
         if (tests > k_most_tests || listed > k_most_listed)
             return Error{
-                fmt::format("the lightmap UVs overlap many times over (up to {}): `lobelia unwrap` makes others",
+                fmt::format("the lightmap UVs overlap many times over (up to {}): `lobelia unwrap` makes new ones",
                             world_->name_of(world_->object[t]))};
     }
 

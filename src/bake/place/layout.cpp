@@ -123,11 +123,11 @@ Result<ObjectPlacements> packed_layout(const World& world, const AtlasOptions& o
         options.texels_per_metre ? *options.texels_per_metre : density_for_one_page(world, extents, options);
     for (const Extent& e : extents)
         if (const double scale = scale_at(e, density); !fits(e, scale, options))
-            return Error{fmt::format(
-                "{} needs {:.0f} x {:.0f} texels at {:.4g} texels per metre, but pages have {} x {}: ask for "
-                "larger pages or fewer texels per metre",
-                world.name_of(e.object), texels_for(e.x1 - e.x0, scale), texels_for(e.y1 - e.y0, scale), density,
-                options.width, options.height)};
+            return Error{
+                fmt::format("{} needs {:.0f} x {:.0f} texels at {:.4g} texels per metre, but pages have {} x {}: "
+                            "choose larger pages or fewer texels per metre",
+                            world.name_of(e.object), texels_for(e.x1 - e.x0, scale), texels_for(e.y1 - e.y0, scale),
+                            density, options.width, options.height)};
     return packed_at(world, extents, density, options);
 }
 

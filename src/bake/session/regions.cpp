@@ -110,7 +110,7 @@ Result<RegionStates> RegionGatherer::states_of(std::size_t region, std::span<con
     const RegionHeader &is = kept->header, &wanted = fresh.header;
     if (is.bake != wanted.bake)
         return Error{path.string() +
-                     ": belongs to another scene or other options; bake into another folder, or remove it"};
+                     ": was baked from another scene or with other options; bake into another folder, or remove it"};
     if (is.texels != wanted.texels || is.sites != wanted.sites || is.floats != wanted.floats ||
         is.samples_per_pass != wanted.samples_per_pass || is.first_pass != wanted.first_pass)
         return Error{path.string() +

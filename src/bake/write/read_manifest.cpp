@@ -48,7 +48,7 @@ void read_codec(const JsonPlace& codec, Manifest& m) {
     if (stated != m.coefficients)
         codec.at("coefficients").refuse(fmt::format("{} has {} coefficients", name->basis, m.coefficients));
     if ((*basis)->domain() == Domain::hemisphere && m.options.frame != Frame::tangent)
-        codec.at("frame").refuse(name->basis + " is a basis of the hemisphere, which stands in the tangent frame");
+        codec.at("frame").refuse(name->basis + " is a hemispherical basis, which requires the tangent frame");
 }
 
 /// The textures that storages make of the codec's coefficients, by storage and name.

@@ -126,7 +126,7 @@ class Punctual final : public Evaluator {
   public:
     [[nodiscard]] std::string name() const override { return "punctual"; }
     [[nodiscard]] Accuracy accuracy() const override {
-        return {"everywhere", "no error: it is what the coefficients mean", Reading::of_its_own, 1e-5};
+        return {"everywhere", "exact by definition", Reading::of_its_own, 1e-5};
     }
     void signed_irradiance(std::span<const Rgb> c, DirectionView normals, MutableColourView out) const override {
         HWY_DYNAMIC_DISPATCH(HighlightRows)

@@ -95,8 +95,8 @@ Accessor::Accessor(Document& document, const JsonPlace& index, std::size_t most_
     components_ = components_of(accessor.at("type").long_text());
     if (const auto normalized = accessor.find("normalized")) normalized_ = normalized->flag();
     count_ = whole(accessor.at("count"));
-    if (component_size_ == 0) refuse(fmt::format("componentType {} is not read", component_type_));
-    if (components_ == 0 || components_ > most_components) refuse("matrices are not read here");
+    if (component_size_ == 0) refuse(fmt::format("componentType {} is not supported", component_type_));
+    if (components_ == 0 || components_ > most_components) refuse("matrices are not supported here");
     const std::size_t element = component_size_ * components_;
 
     // Find its data, if it has any.

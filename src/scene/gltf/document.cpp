@@ -31,9 +31,9 @@ Container split_glb(Bytes bytes, std::string_view name) {
     const auto refuse = [&](std::string_view what) { throw JsonRefusal(fmt::format("{}: {}", name, what)); };
     if (bytes.size() < 12) refuse("a GLB file that ends within its header");
     if (const std::uint32_t version = word_at(bytes, 4); version != 2)
-        refuse(fmt::format("GLB version {} is not read, 2 is", version));
+        refuse(fmt::format("GLB version {} is not supported; use version 2", version));
     const std::uint32_t length = word_at(bytes, 8);
-    if (length > bytes.size()) refuse(fmt::format("the file is cut short: {} bytes of {}", bytes.size(), length));
+    if (length > bytes.size()) refuse(fmt::format("the file is truncated: {} bytes of {}", bytes.size(), length));
     if (length < 12) refuse("a GLB file of fewer bytes than its header");
     bytes = bytes.first(length);
 
@@ -44,7 +44,7 @@ Container split_glb(Bytes bytes, std::string_view name) {
         const std::uint32_t size = word_at(bytes, offset), type = word_at(bytes, offset + 4);
         offset += 8;
         if (size > bytes.size() - offset)
-            refuse(fmt::format("chunk {} is cut short: {} bytes of {}", chunk, bytes.size() - offset, size));
+            refuse(fmt::format("chunk {} is truncated: {} bytes of {}", chunk, bytes.size() - offset, size));
         const Bytes content = bytes.subspan(offset, size);
         if (chunk == 0 && type != k_json) refuse("the first chunk of the GLB file is not JSON");
         if (chunk == 0) parts.json = {reinterpret_cast<const char*>(content.data()), content.size()};
@@ -87,7 +87,7 @@ void check_version(const Document& document, const JsonPlace& root) {
         const auto version = parse_version(place->long_text());
         const bool is_minimum = std::string_view(key) == "minVersion";
         if (!version || (*version)[0] != 2 || (is_minimum && (*version)[1] > 0))
-            place->refuse(fmt::format("glTF \"{:.20}\" is not read, 2.0 is", place->long_text()));
+            place->refuse(fmt::format("glTF \"{:.20}\" is not supported; use 2.0", place->long_text()));
     }
 }
 
@@ -188,7 +188,7 @@ Document open_document(Bytes bytes, const std::string& name, const ResourceReade
     read_buffers(document, root, container.binary);
     check_images(document);
     if (!objects(root, "animations").empty())
-        document.warn("animations", "not read; everything stands where its node says");
+        document.warn("animations", "not supported; nodes keep their static transforms");
     return document;
 }
 
@@ -213,7 +213,7 @@ Bytes view_bytes(const Document& document, const JsonPlace& index) {
 }
 
 std::string compressed(std::string_view extension) {
-    return fmt::format("{} is not read; decompress the file first: gltf-transform copy IN.glb OUT.glb", extension);
+    return fmt::format("{} is not supported; decompress the file first: gltf-transform copy IN.glb OUT.glb", extension);
 }
 
 std::string name_of(const JsonPlace& object) {

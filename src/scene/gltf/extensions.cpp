@@ -10,7 +10,7 @@ namespace {
 constexpr std::string_view k_copy = "decompress the file first: gltf-transform copy IN.glb OUT.glb";
 constexpr std::string_view k_png = "convert its textures first: gltf-transform png IN.glb OUT.glb --formats \"*\"";
 constexpr std::string_view k_fallback = "its textures are read from their PNG, JPEG or WebP fallbacks only";
-constexpr std::string_view k_plain = "compressed data is not read, only its fallback";
+constexpr std::string_view k_plain = "compressed data is not supported; its fallback is read";
 
 /// An extension, and the reader's behaviour.
 struct Extension {
@@ -48,7 +48,7 @@ Extension of_name(std::string_view name) {
     const auto found = std::find_if(k_extensions.begin(), k_extensions.end(),
                                     [&](const Extension& known) { return known.name == name; });
     if (found != k_extensions.end()) return *found;
-    return {name, Support::none, "not read", "export the file without it"};
+    return {name, Support::none, "not supported", "export the file without it"};
 }
 
 constexpr std::size_t k_most_extensions = 4096;
@@ -60,7 +60,8 @@ void check_extensions(Document& document, const JsonPlace& root) {
         for (const JsonPlace& entry : required->list(k_most_extensions)) {
             const Extension known = of_name(entry.long_text());
             if (known.support != Support::full && known.support != Support::harmless)
-                document.refuse("extensionsRequired", fmt::format("{:.60} is not read; {}", known.name, known.remedy));
+                document.refuse("extensionsRequired",
+                                fmt::format("{:.60} is not supported; {}", known.name, known.remedy));
         }
     if (const auto used = root.find("extensionsUsed"))
         for (const JsonPlace& entry : used->list(k_most_extensions))

@@ -100,7 +100,7 @@ void add_light(Document& document, const NodeTree& tree, std::size_t node, Scene
     if (light.kind != PunctualLight::Kind::directional) light.position = placed.translation;
     if (light.kind != PunctualLight::Kind::point) {
         const auto axes = without_scale(placed);
-        if (!axes) source.refuse("its scale leaves the light no direction");
+        if (!axes) source.refuse("degenerate scale: the light has no direction");
         light.direction = Vec3{axes->rows[0].z, axes->rows[1].z, axes->rows[2].z} * -1;
     }
     scene.lights.push_back(std::move(light));
@@ -121,7 +121,7 @@ void add_camera(Document& document, const NodeTree& tree, std::size_t node, Scen
     camera.vertical_field_of_view = angle.single();
     if (!(camera.vertical_field_of_view > 0 && camera.vertical_field_of_view < 3.1415f)) angle.refuse("not in (0, pi)");
     const auto axes = without_scale(relative_to(scene.origin, tree.world_from_node[node]));
-    if (!axes) document.nodes[node].refuse("its scale leaves the camera no axes");
+    if (!axes) document.nodes[node].refuse("degenerate scale: the camera has no axes");
     camera.world_from_camera = *axes;
     scene.cameras.push_back(std::move(camera));
 }

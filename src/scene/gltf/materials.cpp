@@ -54,7 +54,7 @@ std::optional<Reference> read_reference(const Document& document, const JsonPlac
 /// Returns a factor that glTF limits to [0, 1], clamped to it with a warning.
 float clamped_factor(Document& document, double value, const JsonPlace& place) {
     if (value >= 0 && value <= 1) return static_cast<float>(value);
-    document.warn(place, fmt::format("{} is not in [0, 1]; cut to that", value));
+    document.warn(place, fmt::format("{} is not in [0, 1]; clamped", value));
     return value > 1 ? 1.0f : 0.0f;
 }
 
@@ -88,7 +88,7 @@ void read_specular(Document& document, const JsonPlace& source, Material& materi
         material.specular_color = {c.x, c.y, c.z};
     }
     if (extended->has("specularTexture") || extended->has("specularColorTexture"))
-        document.warn(*extended, "its textures are not read, only the factors");
+        document.warn(*extended, "its textures are not supported; only the factors are used");
 }
 
 void read_alpha(const JsonPlace& source, Material& material) {
@@ -128,7 +128,7 @@ void read_metallic_roughness(Document& document, const JsonPlace& source, Draft&
 
 Draft read_draft(Document& document, const JsonPlace& source) {
     if (extension(source, "KHR_materials_pbrSpecularGlossiness"))
-        source.refuse(fmt::format("KHR_materials_pbrSpecularGlossiness is not read; {}", k_metalrough));
+        source.refuse(fmt::format("KHR_materials_pbrSpecularGlossiness is not supported; {}", k_metalrough));
     Draft draft;
     Material& material = draft.material;
     material.name = name_of(source);
@@ -187,8 +187,8 @@ std::optional<TextureUse> numbered(const std::optional<Reference>& reference,
 UvSets read_materials(Document& document, Scene& scene) {
     std::vector<Draft> drafts;
     for (const JsonPlace& material : document.materials) drafts.push_back(read_draft(document, material));
-    warn_of_maps(document, "normalTexture", "normal maps", "not read; surfaces have the normals of their vertices");
-    warn_of_maps(document, "occlusionTexture", "occlusion maps", "not read; the paths find what hides what");
+    warn_of_maps(document, "normalTexture", "normal maps", "not supported; surfaces use their vertex normals");
+    warn_of_maps(document, "occlusionTexture", "occlusion maps", "not used; path tracing computes occlusion");
 
     // Decode the textures that are used, and choose the uv sets.
     std::vector<bool> used(document.textures.size());

@@ -155,7 +155,7 @@ class MeshReader {
             next += block.used.size();
             const std::size_t left = 3 * document_.options.most_triangles - context_.totals.vertices;
             if (next > left || next > std::numeric_limits<std::uint32_t>::max())
-                source_.refuse(fmt::format("{} vertices; at most {} are left to be read", next, left));
+                source_.refuse(fmt::format("{} vertices; the limit allows {} more", next, left));
         }
         context_.totals.vertices += next;
         mesh_.positions.resize(next);

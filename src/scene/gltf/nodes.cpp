@@ -150,8 +150,8 @@ std::vector<std::size_t> find_roots(Document& document, const NodeTree& tree) {
         const std::size_t n = whole(entry);
         if (n >= listed.size()) list->refuse(fmt::format("{} of {}", n, listed.size()));
         if (tree.parent[n])
-            list->refuse(fmt::format("nodes[{}] is no root but a child of nodes[{}]", n, *tree.parent[n]));
-        if (listed[n]) list->refuse(fmt::format("nodes[{}] stands there twice", n));
+            list->refuse(fmt::format("nodes[{}] is not a root: it is a child of nodes[{}]", n, *tree.parent[n]));
+        if (listed[n]) list->refuse(fmt::format("nodes[{}] is listed twice", n));
         listed[n] = true;
         roots.push_back(n);
     }
@@ -201,7 +201,8 @@ NodeTree read_nodes(Document& document) {
     // As each node has at most one parent, a node that is not below a root is in a cycle.
     const auto lost = std::find(walk.reached().begin(), walk.reached().end(), false);
     if (lost != walk.reached().end())
-        document.nodes[static_cast<std::size_t>(lost - walk.reached().begin())].refuse("it is among its own ancestors");
+        document.nodes[static_cast<std::size_t>(lost - walk.reached().begin())].refuse(
+            "it is one of its own ancestors");
     if (walk.hidden() > 0)
         document.warn("nodes",
                       fmt::format("{} hidden by KHR_node_visibility, with all below; left out", walk.hidden()));
@@ -222,7 +223,7 @@ std::vector<Placement> instances_of(Document& document, const JsonPlace& node) {
         if (!index) continue;
         const Accessor& accessor = accessors[i].emplace(document, *index);
         if (accessor.components() != (i == 1 ? 4u : 3u) || (count && *count != accessor.count()))
-            index->refuse("not of the type and number of the others");
+            index->refuse("its type or count differs from the others");
         count = accessor.count();
     }
     if (!count) return std::vector<Placement>(1);

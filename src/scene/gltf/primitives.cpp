@@ -44,7 +44,7 @@ std::vector<Triangle> read_triangles(Document& document, const JsonPlace& primit
     }
     const std::size_t mode = mode_of(primitive);
     const std::size_t count = triangle_count(mode, indices ? indices->count() : vertices);
-    if (count > most) primitive.refuse(fmt::format("{} triangles; at most {} are left to be read", count, most));
+    if (count > most) primitive.refuse(fmt::format("{} triangles; the limit allows {} more", count, most));
     if (vertices > std::numeric_limits<std::uint32_t>::max()) primitive.refuse(fmt::format("{} vertices", vertices));
 
     // Read each corner, and check that its vertex exists.

@@ -243,11 +243,11 @@ class SceneReader {
         if (totals.opposed_normals.count > 0)
             document_.warn(
                 "meshes", fmt::format("{} with normals that point away from the front, the first is {}: light from the "
-                                      "front does not reach them; turn the normals or the winding round",
+                                      "front does not reach them; reverse the normals or the winding",
                                       counted(totals.opposed_normals.count, "triangle"), totals.opposed_normals.first));
         if (totals.repaired_normals > 0)
             document_.warn("meshes", counted(totals.repaired_normals, "normal") +
-                                         " without a direction; made from the triangles around them");
+                                         " without a direction; replaced by the mean of the triangles around them");
         if (document_.more_warnings > 0)
             document_.warnings.push_back("and " + counted(document_.more_warnings, "more warning"));
     }

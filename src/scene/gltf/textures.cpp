@@ -45,7 +45,7 @@ std::optional<std::size_t> find_image(Document& document, const JsonPlace& textu
         return index_below(webp->at("source"), document.images.size());
     if (const auto extensions = texture.find("extensions"); extensions && extensions->size() > 0)
         texture.refuse(
-            fmt::format("its only image is in {:.60}, which is not read; convert it first: gltf-transform "
+            fmt::format("its only image is in {:.60}, which is not supported; convert it first: gltf-transform "
                         "png IN.glb OUT.glb --formats \"*\" (ktxdecompress for KHR_texture_basisu)",
                         extensions->members().front().first));
     document.warn(texture, "no image; left out");
