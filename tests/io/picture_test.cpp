@@ -1,4 +1,4 @@
-// PNG, JPEG and WebP: every kind decodes to the same picture, and damage never gives a partial one.
+// Tests PNG, JPEG and WebP: every kind decodes to the same picture, and damaged files never give a partial one.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -33,7 +33,7 @@ Result<LoadedImage> read_as_environment(const std::string& bytes) {
     return read_environment(std::as_bytes(std::span(bytes)), "picture", {.ldr = true, .most_pixels = k_most_pixels});
 }
 
-/// Largest difference of a sample; 256 if the sizes differ.
+/// Returns the largest difference of a sample; 256 if the sizes differ.
 int largest_difference(const PictureRgba8& a, const TestPicture& b) {
     if (a.width != b.width || a.height != b.height || a.texels.size() != b.texels.size()) return 256;
     int largest = 0;
@@ -73,7 +73,7 @@ std::vector<JpegSpec> jpeg_kinds() {
     return kinds;
 }
 
-/// A file of each format.
+/// Returns a file of each format.
 std::vector<std::string> some_files() {
     const TestPicture picture = test_picture(k_width, k_height, Alpha::transparent);
     return {make_png(k_width, k_height).bytes,
@@ -150,7 +150,7 @@ TEST(ReadPicture, JpegTablesMustBeDefined) {
         EXPECT_NE(huffman.find("at byte"), std::string::npos) << huffman;
         EXPECT_NE(quantisation.find("uantization table"), std::string::npos) << quantisation;
     }
-    // Tables that a single scan names: of 0 to 3 but the two that are defined, and beyond what there can be.
+    // Use tables that a single scan names: of 0 to 3 all but the two defined ones, and numbers beyond the maximum.
     auto segments = split_jpeg(make_jpeg(picture, {.colours = Colours::grey}));
     auto scan = std::find_if(segments.begin(), segments.end(), [](const auto& s) { return s.code == 0xda; });
     ASSERT_NE(scan, segments.end());
@@ -161,7 +161,7 @@ TEST(ReadPicture, JpegTablesMustBeDefined) {
 }
 
 TEST(ReadPicture, LaterScansHaveNoDefaultTables) {
-    // A scan for each component; all but the first name tables that are never defined.
+    // Use a scan for each component; all but the first name undefined tables.
     for (const std::size_t defined : {std::size_t{1}, std::size_t{2}}) {
         auto segments = split_jpeg(make_jpeg(test_picture(k_width, k_height), {.scans = Scans::by_component}));
         std::size_t scans = 0;
@@ -181,7 +181,7 @@ TEST(ReadPicture, EveryComponentNeedsAScan) {
         const auto count = [&] {
             return std::count_if(segments.begin(), segments.end(), [](const auto& s) { return s.code == 0xda; });
         };
-        // Leave the first scan alone: of one component, or, if progressive, nothing but the last ones.
+        // Keep a single scan: the first one of a file by component, the last one of a progressive file.
         std::ptrdiff_t scans = 0;
         const std::ptrdiff_t all = count();
         std::erase_if(segments, [&](const JpegSegment& s) {
@@ -204,14 +204,14 @@ TEST(ReadPicture, ManyScansAreRefused) {
 }
 
 TEST(ReadPicture, DamagedDataIsAnError) {
-    // A bit of the image data of a PNG, in all places: the checksum tells.
+    // Flip bits everywhere in the image data of a PNG: the checksum detects them.
     const PngFile png = make_png(k_width, k_height);
     for (std::size_t i = png.bytes.find("IDAT") + 4; i < png.bytes.size(); ++i) {
         std::string damaged = png.bytes;
         damaged[i] = static_cast<char>(damaged[i] ^ 4);
         EXPECT_FALSE(read(damaged)) << i;
     }
-    // Zeros, which mean the shortest code, in place of the end of the image data of a JPEG.
+    // Replace the end of the image data of a JPEG by zeros, which decode as the shortest code.
     const std::string jpeg = make_jpeg(test_picture(160, 160));
     std::string damaged = jpeg;
     std::fill(damaged.end() - 402, damaged.end() - 2, '\0');
@@ -221,7 +221,7 @@ TEST(ReadPicture, DamagedDataIsAnError) {
 TEST(ReadPicture, OrientationIsIgnored) {
     const TestPicture picture = test_picture(k_width, k_height);
     auto segments = split_jpeg(make_jpeg(picture));
-    // Exif, little-endian, one entry: orientation, a short, 6 (turned by 90 degrees).
+    // Exif, little-endian, one entry: orientation, a short, 6 (rotated by 90 degrees).
     const std::string exif = "Exif\0\0II*\0\x08\0\0\0\x01\0\x12\x01\x03\0\x01\0\0\0\x06\0\0\0\0\0\0\0"s;
     const auto size = static_cast<char>(exif.size() + 2);
     segments.insert(segments.begin() + 1, {0xe1, "\xff\xe1\0"s + size + exif});
@@ -234,7 +234,7 @@ TEST(ReadPicture, OrientationIsIgnored) {
 TEST(ReadPicture, LimitsHoldBeforeAllocation) {
     for (const std::string& bytes : some_files())
         EXPECT_NE(message_of(bytes, k_width * k_height - 1).find("at most 189 pixels"), std::string::npos);
-    // 50000 x 50000 pixels in a few bytes: in the header of a PNG, and of a JPEG.
+    // Claim 50000 x 50000 pixels in a few bytes: in the header of a PNG, and of a JPEG.
     std::string png = make_png(k_width, k_height).bytes;
     png.replace(16, 8, "\0\0\xc3\x50\0\0\xc3\x50"s);
     EXPECT_FALSE(read(png, std::size_t{1} << 40));
@@ -265,7 +265,7 @@ TEST(ReadLdr, SixteenBitsAreKept) {
     for (const Rgb& pixel : loaded->image.pixels) levels.push_back(pixel.r);
     std::sort(levels.begin(), levels.end());
     levels.erase(std::unique(levels.begin(), levels.end()), levels.end());
-    // Of 190 random samples of 8 bits, more than a third would be equal to another.
+    // Among 190 random samples of 8 bits, more than a third would be equal to another.
     EXPECT_GT(levels.size(), 180u);
 }
 
@@ -281,7 +281,7 @@ TEST(ReadLdr, PicturesNeedTheOption) {
 }
 
 TEST(ReadLdr, OversizedHuffmanTablesAreRefused) {
-    // A table that claims 16 * 20 codes, of which there can be 256.
+    // A table that claims 16 * 20 codes; at most 256 are possible.
     std::string jpeg("\xff\xd8\xff\xc4\x01\x53\x00", 7);
     jpeg.append(16, 20).append(320, 'c').append("\xff\xd9");
     const auto loaded = read_as_environment(jpeg);
@@ -292,7 +292,7 @@ TEST(ReadLdr, OversizedHuffmanTablesAreRefused) {
 TEST(ReadLdr, ChunksLongerThanTheFileAreRefused) {
     const auto png = encode_png(to_srgb(test_image(16, 8), 0.02f));
     ASSERT_TRUE(png);
-    // The length of the first chunk of image data, set to 1 GiB.
+    // Set the length of the first chunk of image data to 1 GiB.
     std::string damaged = *png;
     const std::size_t at = damaged.find("IDAT") - 4;
     damaged.replace(at, 4, std::string("\x40\0\0\0", 4));
