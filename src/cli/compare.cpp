@@ -45,7 +45,7 @@ Status compare_verb(CompareArguments arguments) {
     job.options.pictures = !arguments.json_only;
     job.options.convergence = !arguments.json_only && !arguments.no_convergence;
 
-    // Names first, then files: refuse early whatever can be refused early.
+    // Check names before files, so that errors come early.
     if (auto status = check(job); !status) return status;
     const auto environment = load(arguments.environment);
     if (!environment) return environment.error();

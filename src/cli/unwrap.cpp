@@ -43,7 +43,7 @@ Result<std::filesystem::path> script_folder() {
         fmt::format("unwrap.mjs is not found in {}; set LOBELIA_TOOLS to its folder", folders.front().string())};
 }
 
-/// Says what is missing before anything is read.
+/// Checks that the tools are installed, before anything is read.
 Status check_tools(const std::filesystem::path& folder, const std::atomic<bool>& stop) {
     const auto node = run_program({"node", "--version"}, std::chrono::seconds(20), stop);
     if (!node || node->code != 0)

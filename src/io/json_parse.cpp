@@ -1,4 +1,4 @@
-// Parses JSON text, and says where and why it is broken.
+// Parses JSON text, and reports the place and cause of errors.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -66,7 +66,7 @@ class Builder {
 
     [[nodiscard]] json take() { return std::move(root_); }
     [[nodiscard]] const std::string& problem() const { return problem_; }
-    /// Where the parser met the problem, counted from 1; nothing where it was a handler's.
+    /// Returns the byte at which the parser failed, counted from 1; nothing if a handler failed.
     [[nodiscard]] std::optional<std::size_t> byte() const { return byte_; }
 
   private:

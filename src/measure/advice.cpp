@@ -71,7 +71,7 @@ std::size_t balanced(const std::vector<Candidate>& front) {
         front.begin());
 }
 
-/// Chooses and says why, as far as the choice itself goes.
+/// Chooses a candidate and states the reason.
 void recommend(Advice& advice) {
     const AdviceOptions& options = advice.options;
     const std::string small_enough =

@@ -1,4 +1,4 @@
-// What a bake's irradiance is, texel by texel.
+// Evaluates a bake's irradiance, texel by texel.
 #include "bake/write/irradiance_files.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// Names of codecs in files that anybody may have written.
+// Names of codecs in untrusted files.
 #pragma once
 
 #include <string_view>
