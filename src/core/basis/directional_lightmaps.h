@@ -18,7 +18,9 @@ class NormalMoments final : public LinearBasis {
     [[nodiscard]] std::size_t size() const override { return 5; }
     void values(DirectionView block, float* rows) const override;
     [[nodiscard]] std::string name() const override { return "normal-moments"; }
-    [[nodiscard]] std::string description() const override { return "moments from which directional lightmaps are fitted"; }
+    [[nodiscard]] std::string description() const override {
+        return "moments from which directional lightmaps are fitted";
+    }
     [[nodiscard]] Domain domain() const override { return Domain::hemisphere; }
     [[nodiscard]] bool is_non_negative() const override { return false; }
     [[nodiscard]] Matrix gram() const override;
