@@ -24,7 +24,7 @@
 // never divided by pi: docs/conventions.md.
 #pragma once
 
-// The order tells the story.
+// The order follows the light.
 // clang-format off
 
 // Numbers, and results of functions that may fail.

@@ -11,7 +11,8 @@
 
 namespace lobelia {
 
-/// Kernels work on groups of at most this many floats: the widest vector of any supported machine (512 bits).
+/// Maximum number of floats in a vector of any supported machine (512 bits); kernels work on groups of at most this
+/// many.
 inline constexpr std::size_t k_lanes = 16;
 
 [[nodiscard]] constexpr std::size_t round_up_to_lanes(std::size_t n) { return (n + k_lanes - 1) / k_lanes * k_lanes; }
@@ -24,14 +25,14 @@ struct PlanesView {
     std::size_t size = 0;
 
     [[nodiscard]] Float* channel(std::size_t i) const { return pointers[i]; }
-    /// Entries [begin, begin + count).
+    /// Returns entries [begin, begin + count).
     [[nodiscard]] PlanesView part(std::size_t begin, std::size_t count) const {
         assert(begin + count <= size);
         PlanesView result{pointers, count};
         for (Float*& pointer : result.pointers) pointer += begin;
         return result;
     }
-    /// The M channels from `first` on.
+    /// Returns the M channels from `first` on.
     template <std::size_t M>
     [[nodiscard]] PlanesView<M, Float> channels(std::size_t first) const {
         static_assert(M <= N);
@@ -86,7 +87,7 @@ using Colours = Planes<3>;
 using ColourView = Colours::View;
 using MutableColourView = Colours::MutableView;
 
-/// Entry i of three channels, as a vector or a colour.
+/// Returns entry i of three channels, as a vector or a colour.
 template <class Triple, class Float>
 [[nodiscard]] Triple entry(const PlanesView<3, Float>& view, std::size_t i) {
     assert(i < view.size);
@@ -105,13 +106,13 @@ inline void set_entry(const PlanesView<3, float>& view, std::size_t i, Rgb c) {
     set_entry(view, i, Vec3{c.r, c.g, c.b});
 }
 
-/// Every colour times `factor`.
+/// Returns every colour times `factor`.
 inline void scale(const MutableColourView& colours, float factor) {
     for (std::size_t k = 0; k < 3; ++k)
         for (std::size_t i = 0; i < colours.size; ++i) colours.channel(k)[i] *= factor;
 }
 
-/// Turns irradiance E into E / pi, the radiance that leaves a white diffuse surface.
+/// Converts irradiance E to E / pi, the radiance that leaves a white diffuse surface.
 inline constexpr auto k_over_pi = static_cast<float>(1 / k_pi);
 
 }  // namespace lobelia

@@ -1,4 +1,4 @@
-// What a function returns when its input may be bad: a value, or an error that names file, place and remedy.
+// The result of a function whose input may be bad: a value, or an error that names file, place and remedy.
 #pragma once
 
 #include <cassert>
@@ -8,9 +8,12 @@
 
 namespace lobelia {
 
-/// Why bad input was refused: one or two sentences for a person, naming the file and the place in it.
+/// The reason why bad input was refused: one or two sentences for a person, naming the file and the place in it.
 struct Error {
+    /// stopped: the caller's stop flag ended the work; there is nothing to mend.
+    enum class Kind { refused, stopped };
     std::string message;
+    Kind kind = Kind::refused;
 };
 
 /// A `T` or an `Error`. Reading the value of a failure is the caller's mistake (asserted).

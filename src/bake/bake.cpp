@@ -81,7 +81,7 @@ Status gather_and_solve(BakeWork& work, const BakeSession& session, const fs::pa
     totals.finish(statistics);
     if (statistics.codec_error > k_useless_codec)
         warn(work.bake, session,
-             fmt::format("the codec's irradiance is off by {:.0f} % RMS: encoder \"{}\" does not suit this light; use "
+             fmt::format("codec irradiance error {:.0f} % RMS: encoder \"{}\" is unsuitable for this light; use "
                          "moments or least-squares",
                          100 * statistics.codec_error, setup.encoding.codec()->name().encoder));
     return Done{};

@@ -148,8 +148,9 @@ lob_status lob_bake_scene(const lob_scene* scene, const lob_bake_options* option
         BakeSession session = to_session(all);
         session.earlier_warnings = scene->loaded.warnings;
         auto baked = bake(scene->loaded.scene, job, session);
-        const bool stopped = all.stop != nullptr && all.stop->flag;
-        if (!baked) return fail(stopped ? LOB_STOPPED : LOB_BAD_INPUT, baked.error().message);
+        if (!baked)
+            return fail(baked.error().kind == Error::Kind::stopped ? LOB_STOPPED : LOB_BAD_INPUT,
+                        baked.error().message);
         *out = new lob_bake{*std::move(baked)};
         return LOB_OK;
     });

@@ -104,7 +104,7 @@ Verb add_advise(CLI::App& app) {
     command->add_option("--texels", a->texels, "Number of lightmap texels of a scene to measure, spread evenly")
         ->check(CLI::Range(std::size_t{1}, std::size_t{10'000}))
         ->capture_default_str();
-    add_out_option(*command, a->out, "Folder for advice.html and advice.json, with all candidates worth choosing");
+    add_out_option(*command, a->out, "Folder for advice.html and advice.json, with all Pareto-optimal candidates");
     return {command, [a] { return advise_verb(*a); }};
 }
 

@@ -1,4 +1,4 @@
-// From the options of lobelia bake to its job.
+// Converts the options of lobelia bake to its job.
 #include <charconv>
 #include <cmath>
 

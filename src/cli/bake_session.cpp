@@ -49,7 +49,7 @@ Status stopped(const BakeSession& session, const BakeOptions& options) {
                                  : fmt::format("lobelia: stopped; continue with: lobelia bake --resume -o {}",
                                                session.folder.string()));
     StopOnInterrupt::end_program();
-    return Error{"stopped"};
+    return Error{"stopped", Error::Kind::stopped};
 }
 
 Status write_report(const Scene& scene, const BakeJob& job, const Bake& bake, const BakeSession& session) {
@@ -79,7 +79,7 @@ Status finish_session(const Scene& scene, const BakeJob& job, const Result<Bake>
     const Status status = !baked   ? Status(baked.error())
                           : report ? write_report(scene, job, *baked, session)
                                    : Status(Done{});
-    if (!status) return *session.stop ? stopped(session, job.bake) : status;
+    if (!status) return status.error().kind == Error::Kind::stopped ? stopped(session, job.bake) : status;
     if (job.bake.shard.count > 1) {
         fmt::print("part {} of {} is done: {}\n", job.bake.shard.index, job.bake.shard.count, out);
         return Done{};

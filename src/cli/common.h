@@ -1,4 +1,4 @@
-// What several verbs share: grid sizes, output, progress.
+// Shared by several verbs: grid sizes, output, progress.
 #pragma once
 
 #include <functional>

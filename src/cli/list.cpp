@@ -77,7 +77,7 @@ void print_axes() {
     print_specular();
     fmt::print("storages\n");
     for (const Storage& storage : storages()) fmt::print("  {:<20} {}\n", storage.name, storage.description);
-    fmt::print("A codec is one of each, basis/encoder/evaluator; lobelia list prints all {} of the sensible product.\n",
+    fmt::print("A codec is one of each, basis/encoder/evaluator; lobelia list prints the {} useful combinations.\n",
                all_codecs().size());
 }
 
@@ -119,14 +119,14 @@ Status print_layouts(const std::string& name, Output output) {
 }  // namespace
 
 Verb add_list(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("list", "Print the codecs, or the parts that they are made of");
+    CLI::App* command = app.add_subcommand("list", "List codecs, or their parts");
     auto options = std::make_shared<ListArguments>();
     CLI::Option* axes =
         command->add_flag("--axes", options->axes, "List bases, encoders, evaluators and storages with descriptions");
     command->add_flag("--markdown", options->markdown, "Write docs/bases.md to standard output")->excludes(axes);
-    auto* layouts = command->add_option("--storages", options->storages,
-                                        "List the textures in which each compatible storage keeps the coefficients of "
-                                        "this basis or codec");
+    auto* layouts =
+        command->add_option("--storages", options->storages,
+                            "List the textures of each storage that is compatible with this basis or codec");
     layouts->transform(CLI::Validator(replace_lobe_file, ""));
     command->add_flag("--json", options->json, "Print the textures as JSON")->needs(layouts);
     return {command, [options, layouts]() -> Status {

@@ -61,7 +61,7 @@ Result<Finished> run_program(const std::vector<std::string>& arguments, std::chr
         if (const bool late = Clock::now() > deadline; late || stop) {
             kill(*child, SIGKILL);
             waitpid(*child, &status, 0);
-            if (!late) return Error{"stopped"};
+            if (!late) return Error{"stopped", Error::Kind::stopped};
             return Error{fmt::format("{} was stopped: it took longer than {} s", arguments[0], most.count())};
         }
         std::this_thread::sleep_for(pause);

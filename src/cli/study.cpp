@@ -73,7 +73,7 @@ void add_encoder_options(CLI::App& command, StudyArguments& a) {
 
 void add_bake_options(CLI::App& command, StudyArguments& a) {
     add_scene_options(command, a.scene);
-    command.add_option("--basis", a.bake.bases, "Only these bases (default: all listed)")
+    command.add_option("--basis", a.bake.bases, "Bases to measure (default: all listed)")
         ->transform(CLI::Validator(replace_lobe_file, ""));
     command.add_option("--texels", a.bake.texels, "Number of lightmap texels, spread evenly")
         ->check(CLI::Range(std::size_t{1}, std::size_t{100'000}))

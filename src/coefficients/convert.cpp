@@ -12,7 +12,7 @@
 namespace lobelia {
 namespace {
 
-/// The codec that a written file of `count` harmonics names: the one asked for, or the first of the list.
+/// Returns the codec of a written file of `count` harmonics: the requested one, or the first of the list.
 Result<CodecName> codec_for(const std::string& name, std::size_t count) {
     const auto matches = [&](const Basis& basis) {
         const auto degree = basis.harmonics_degree();

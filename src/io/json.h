@@ -23,7 +23,7 @@
 
 namespace lobelia {
 
-/// What is refused before it costs memory or stack.
+/// Limits that are checked before memory or stack is used.
 struct JsonLimits {
     std::size_t most_depth = 64;                      ///< nested arrays and objects
     std::size_t most_values = std::size_t{1} << 27;   ///< numbers, strings, arrays, objects and so on
@@ -95,7 +95,7 @@ class JsonPlace {
     [[nodiscard]] double number_in(double least, double most) const;
     [[nodiscard]] float single() const;
     [[nodiscard]] Vec3 vector() const;
-    /// As many numbers as `target` has elements.
+    /// Reads as many numbers as `target` has elements.
     void numbers(std::span<double> target) const;
     /// Refuses a value that differs from `expected`; objects may have further members.
     void expect(const nlohmann::json& expected) const;

@@ -30,7 +30,7 @@ Error unknown_format(std::string_view name, std::span<const std::byte> begin) {
     if (begin.empty()) return Error{fmt::format("{}: the file is empty", name)};
     if (const std::string_view format = io::unread_format(begin); !format.empty())
         return Error{
-            fmt::format("{}: {}, which is not read; Radiance .hdr, OpenEXR, PNG, JPEG and WebP are", name, format)};
+            fmt::format("{}: {} is not supported; use Radiance .hdr, OpenEXR, PNG, JPEG or WebP", name, format)};
     return Error{fmt::format("{}: neither a Radiance picture, nor OpenEXR, nor PNG, JPEG or WebP", name)};
 }
 

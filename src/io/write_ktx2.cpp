@@ -89,7 +89,7 @@ FormatFacts bc6h(std::uint32_t qualifiers) {
     return {k_model_bc6h, 1, {{0, 128, k_float | qualifiers, qualifiers == k_signed ? k_minus_one : 0, k_one}}};
 }
 
-/// By VkFormat: pixel formats without one of their own, which are stored as R8G8B8A8_UNORM, need nothing here.
+/// Returns the facts of a VkFormat. Pixel formats without their own, stored as R8G8B8A8_UNORM, need no entry.
 FormatFacts facts_of(std::uint32_t vk_format) {
     switch (vk_format) {
         case 100:

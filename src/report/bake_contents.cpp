@@ -50,7 +50,7 @@ Result<std::string> bake_report(const Scene& scene, const Bake& bake, const Repo
     of_pictures.height = options.height;
     of_pictures.samples = options.samples;
     auto views = render_views(scene, report->light, bake.manifest.options.paths, of_pictures);
-    if (!views) return Error{"stopped"};
+    if (!views) return Error{"stopped", Error::Kind::stopped};
     report->views = std::move(*views);
     return bake_html(*report);
 }

@@ -1,4 +1,4 @@
-// Whether lightmap UVs can be baked.
+// Checks that lightmap UVs can be baked.
 #include "scene/lightmap_check.h"
 
 #include <algorithm>
@@ -6,8 +6,13 @@
 namespace lobelia {
 namespace {
 
+<<<<<<< HEAD
 /// Points beyond the square are not drawn, but must not cost time either.
 struct UvBox {
+=======
+/// A range of grid indices, clipped to the square to limit the cost of triangles beyond it.
+struct Box {
+>>>>>>> english
     std::size_t begin, end;
 };
 UvBox clipped(float low, float high, std::size_t grid) {
@@ -15,12 +20,12 @@ UvBox clipped(float low, float high, std::size_t grid) {
     return {static_cast<std::size_t>(cut(low)), static_cast<std::size_t>(std::ceil(cut(high)))};
 }
 
-/// Twice the area of a triangle, positive where it turns from x to y.
+/// Returns twice the signed area of a triangle, positive if it turns from x to y.
 double turn(const std::array<double, 2>& a, const std::array<double, 2>& b, const std::array<double, 2>& c) {
     return (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]);
 }
 
-/// Calls `visit` with each grid point within a triangle, its edges left out.
+/// Calls `visit` with each grid point inside a triangle, without its edges.
 template <class Visit>
 void for_each_point(const std::array<Vec2, 3>& t, std::size_t grid, Visit visit) {
     std::array<std::array<double, 2>, 3> p;
@@ -31,7 +36,7 @@ void for_each_point(const std::array<Vec2, 3>& t, std::size_t grid, Visit visit)
     constexpr double k_edge = 1e-9;
     for (std::size_t y = rows.begin; y < rows.end; ++y)
         for (std::size_t x = columns.begin; x < columns.end; ++x) {
-            // Off the texels' centres a little, for charts may have edges there.
+            // Sample a little off the texels' centres, because charts may have edges there.
             const std::array<double, 2> c{static_cast<double>(x) + 0.4863, static_cast<double>(y) + 0.4929};
             if (turn(p[0], p[1], c) > k_edge && turn(p[1], p[2], c) > k_edge && turn(p[2], p[0], c) > k_edge)
                 visit(y * grid + x);

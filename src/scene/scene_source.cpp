@@ -1,4 +1,4 @@
-// Scenes by name, with their environment.
+// Loads scenes by name, with their environment.
 #include "scene/scene_source.h"
 
 #include <fmt/core.h>
@@ -18,7 +18,7 @@ namespace lobelia {
 namespace {
 
 Result<LoadedScene> read_or_make(const SceneSource& source) {
-    // A name of the list is an embedded scene, unless there is a file of that name.
+    // A listed name is an embedded scene, unless a file of that name exists.
     std::error_code code;
     const auto names = embedded_scene_names();
     auto scene = embedded_scene(source.path);

@@ -1,4 +1,4 @@
-// Embree's scene, and the filter that lets light through what does not stop it.
+// Embree's scene, and the filter for surfaces that let light pass.
 #include "trace/rays.h"
 
 #if LOBELIA_EMBREE == 3
@@ -57,17 +57,17 @@ void occlude(RTCScene scene, Context& context, RTCFilterFunctionN filter, RTCRay
 }
 #endif
 
-/// What the filter needs to know; Embree hands the context back to it.
+/// Data of the filter; Embree passes a pointer to the context.
 struct FilterContext {
     Context embree;  // first, so that a pointer to it is a pointer to this
     const std::uint8_t* kinds;
     const Transparency* transparency;
     std::uint32_t salt;
-    std::uint8_t passing;  ///< the kinds that may let light through
+    std::uint8_t passing;  ///< kinds that let light pass
 };
 
-/// Embree calls this for every surface that a ray meets, one at a time since rays are traced one at a time.
-void reject_what_passes(const RTCFilterFunctionNArguments* a) {
+/// Rejects hits that let light pass. Embree calls this for each hit, with one ray at a time.
+void reject_passable_hits(const RTCFilterFunctionNArguments* a) {
     assert(a->N == 1);
     const auto& context = *reinterpret_cast<const FilterContext*>(a->context);
     const auto& ray = *reinterpret_cast<const RTCRay*>(a->ray);
@@ -153,7 +153,7 @@ RayHit RayScene::closest(Vec3 origin, Vec3 direction, float farthest) const {
 RayHit RayScene::closest_stop(Vec3 origin, Vec3 direction, std::uint32_t salt, Backs backs) const {
     FilterContext context{{}, kinds_.data(), transparency_, salt, passing(backs)};
     start(context.embree);
-    return find(handles_->scene, context.embree, reject_what_passes, make_ray(origin, direction, k_infinite));
+    return find(handles_->scene, context.embree, reject_passable_hits, make_ray(origin, direction, k_infinite));
 }
 
 bool RayScene::stopped(Vec3 origin, Vec3 direction, float distance, std::uint32_t salt, Backs backs) const {
@@ -161,7 +161,7 @@ bool RayScene::stopped(Vec3 origin, Vec3 direction, float distance, std::uint32_
     start(context.embree);
     RTCRay ray = make_ray(origin, direction, distance);
     const bool all_stop = (all_kinds_ & context.passing) == 0;
-    occlude(handles_->scene, context.embree, all_stop ? nullptr : reject_what_passes, ray);
+    occlude(handles_->scene, context.embree, all_stop ? nullptr : reject_passable_hits, ray);
     return ray.tfar < 0;
 }
 

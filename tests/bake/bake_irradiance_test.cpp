@@ -272,7 +272,7 @@ TEST(BakeFolder, AFileInItsPlaceIsAnError) {
     test::overwrite(folder.path() / "file", "text");
     const auto status = write_bake(folder.path() / "file", some_bake("sh1/moments/convolution"));
     ASSERT_FALSE(status);
-    EXPECT_NE(status.error().message.find("file: cannot be made a folder"), std::string::npos);
+    EXPECT_NE(status.error().message.find("file: cannot create the folder"), std::string::npos);
     EXPECT_EQ(test::contents(folder.path() / "file"), "text");
 }
 

@@ -153,8 +153,8 @@ TEST_F(BakeOutput, HostileManifestsAreRefusedWithTheirPlace) {
         {"\"seconds\": 1.5", "\"seconds\": \"1.5\"", "statistics.seconds: not a finite number"},
         {"\"by\": \"samples\"", "\"by\": \"magic\"", "options.shard.by: \"magic\" is none of tiles, samples"},
         {"\"count\": 5", "\"count\": 0", "options.shard.count"},
-        {"{", "[{", "broken JSON at byte"},
-        {"\"frame\"", "\"name\": 1, \"frame\"", "stands twice"},
+        {"{", "[{", "invalid JSON at byte"},
+        {"\"frame\"", "\"name\": 1, \"frame\"", "duplicate key \"name\""},
     };
     for (const auto& c : cases) {
         std::string text = good;

@@ -23,7 +23,7 @@ BakeJob plain_job() {
     return job;
 }
 
-/// Bakes a file of the cases; nothing where they are not present.
+/// Bakes a file of the cases; returns nothing if it is not present.
 std::optional<Bake> baked_case(const char* file, const BakeJob& job = plain_job()) {
     const fs::path path = test::cases_folder() / file;
     if (!fs::exists(path)) return std::nullopt;

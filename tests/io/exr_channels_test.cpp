@@ -175,7 +175,7 @@ TEST(ExrChannels, FullDiskLeavesTheOldFile) {
     const test::TestFolder folder("exr-full");
     const auto path = folder.path() / "a.exr";
     test::overwrite(path, "old");
-    // At the beginning, in the middle, and where only the table of chunks does not fit any more.
+    // Truncate at the beginning, in the middle, and where only the table of chunks does not fit.
     const ChannelPlanes planes(64, 64, 4);
     const std::size_t size = encoded(planes).size();
     for (const std::size_t most : {std::size_t{10}, size / 2, size - 4}) {

@@ -1,4 +1,4 @@
-// PNG, JPEG and WebP: every kind decodes to the same picture, and damage never gives a partial one.
+// Tests PNG, JPEG and WebP: every kind decodes to the same picture, and damaged files never give a partial one.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -33,7 +33,7 @@ Result<LoadedImage> read_as_environment(const std::string& bytes) {
     return read_environment(std::as_bytes(std::span(bytes)), "picture", {.ldr = true, .most_pixels = k_most_pixels});
 }
 
-/// Largest difference of a sample; 256 if the sizes differ.
+/// Returns the largest difference of a sample; 256 if the sizes differ.
 int largest_difference(const PictureRgba8& a, const TestPicture& b) {
     if (a.width != b.width || a.height != b.height || a.texels.size() != b.texels.size()) return 256;
     int largest = 0;
@@ -74,7 +74,7 @@ std::vector<JpegSpec> jpeg_kinds() {
     return kinds;
 }
 
-/// A file of each format.
+/// Returns a file of each format.
 std::vector<std::string> some_files() {
     const TestPicture picture = test_picture(k_width, k_height, Alpha::transparent);
     return {make_png(k_width, k_height).bytes,
@@ -113,7 +113,8 @@ TEST(ReadPicture, EveryKindOfWebpDecodes) {
     ASSERT_TRUE(lossy) << lossy.error().message;
     EXPECT_EQ(largest_difference(*lossless, colours), 0);
     EXPECT_LE(largest_difference(*lossy, colours), 60);
-    EXPECT_NE(picture_error(make_animated_webp()).find("animated"), std::string::npos) << picture_error(make_animated_webp());
+    EXPECT_NE(picture_error(make_animated_webp()).find("animated"), std::string::npos)
+        << picture_error(make_animated_webp());
 }
 
 TEST(ReadPicture, TruncatedAtEveryByteIsAnError) {
@@ -151,18 +152,19 @@ TEST(ReadPicture, JpegTablesMustBeDefined) {
         EXPECT_NE(huffman.find("at byte"), std::string::npos) << huffman;
         EXPECT_NE(quantisation.find("uantization table"), std::string::npos) << quantisation;
     }
-    // Tables that a single scan names: of 0 to 3 but the two that are defined, and beyond what there can be.
+    // Use tables that a single scan names: of 0 to 3 all but the two defined ones, and numbers beyond the maximum.
     auto segments = split_jpeg(make_jpeg(picture, {.colours = JpegColours::grey}));
     auto scan = std::find_if(segments.begin(), segments.end(), [](const auto& s) { return s.code == 0xda; });
     ASSERT_NE(scan, segments.end());
     for (const char tables : {'\x01', '\x10', '\x11', '\x02', '\x20', '\x33', '\x04', '\x40', '\xff'}) {
         scan->bytes[6] = tables;
-        EXPECT_NE(picture_error(join_jpeg(segments)).find("Huffman table"), std::string::npos) << static_cast<int>(tables);
+        EXPECT_NE(picture_error(join_jpeg(segments)).find("Huffman table"), std::string::npos)
+            << static_cast<int>(tables);
     }
 }
 
 TEST(ReadPicture, LaterScansHaveNoDefaultTables) {
-    // A scan for each component; all but the first name tables that are never defined.
+    // Use a scan for each component; all but the first name undefined tables.
     for (const std::size_t defined : {std::size_t{1}, std::size_t{2}}) {
         auto segments = split_jpeg(make_jpeg(test_picture(k_width, k_height), {.scans = Scans::by_component}));
         std::size_t scans = 0;
@@ -182,7 +184,7 @@ TEST(ReadPicture, EveryComponentNeedsAScan) {
         const auto count = [&] {
             return std::count_if(segments.begin(), segments.end(), [](const auto& s) { return s.code == 0xda; });
         };
-        // Leave the first scan alone: of one component, or, if progressive, nothing but the last ones.
+        // Keep a single scan: the first one of a file by component, the last one of a progressive file.
         std::ptrdiff_t scans = 0;
         const std::ptrdiff_t all = count();
         std::erase_if(segments, [&](const JpegSegment& s) {
@@ -205,14 +207,14 @@ TEST(ReadPicture, ManyScansAreRefused) {
 }
 
 TEST(ReadPicture, DamagedDataIsAnError) {
-    // A bit of the image data of a PNG, in all places: the checksum tells.
+    // Flip bits everywhere in the image data of a PNG: the checksum detects them.
     const PngFile png = make_png(k_width, k_height);
     for (std::size_t i = png.bytes.find("IDAT") + 4; i < png.bytes.size(); ++i) {
         std::string damaged = png.bytes;
         damaged[i] = static_cast<char>(damaged[i] ^ 4);
         EXPECT_FALSE(read_rgba8(damaged)) << i;
     }
-    // Zeros, which mean the shortest code, in place of the end of the image data of a JPEG.
+    // Replace the end of the image data of a JPEG by zeros, which decode as the shortest code.
     const std::string jpeg = make_jpeg(test_picture(160, 160));
     std::string damaged = jpeg;
     std::fill(damaged.end() - 402, damaged.end() - 2, '\0');
@@ -222,7 +224,7 @@ TEST(ReadPicture, DamagedDataIsAnError) {
 TEST(ReadPicture, OrientationIsIgnored) {
     const TestPicture picture = test_picture(k_width, k_height);
     auto segments = split_jpeg(make_jpeg(picture));
-    // Exif, little-endian, one entry: orientation, a short, 6 (turned by 90 degrees).
+    // Exif, little-endian, one entry: orientation, a short, 6 (rotated by 90 degrees).
     const std::string exif = "Exif\0\0II*\0\x08\0\0\0\x01\0\x12\x01\x03\0\x01\0\0\0\x06\0\0\0\0\0\0\0"s;
     const auto size = static_cast<char>(exif.size() + 2);
     segments.insert(segments.begin() + 1, {0xe1, "\xff\xe1\0"s + size + exif});
@@ -235,7 +237,7 @@ TEST(ReadPicture, OrientationIsIgnored) {
 TEST(ReadPicture, LimitsHoldBeforeAllocation) {
     for (const std::string& bytes : some_files())
         EXPECT_NE(picture_error(bytes, k_width * k_height - 1).find("at most 189 pixels"), std::string::npos);
-    // 50000 x 50000 pixels in a few bytes: in the header of a PNG, and of a JPEG.
+    // Claim 50000 x 50000 pixels in a few bytes: in the header of a PNG, and of a JPEG.
     std::string png = make_png(k_width, k_height).bytes;
     png.replace(16, 8, "\0\0\xc3\x50\0\0\xc3\x50"s);
     EXPECT_FALSE(read_rgba8(png, std::size_t{1} << 40));
@@ -247,7 +249,7 @@ TEST(ReadPicture, LimitsHoldBeforeAllocation) {
 }
 
 TEST(ReadPicture, UnreadFormatsAreNamed) {
-    EXPECT_NE(picture_error("BM123456").find("a BMP picture, which is not read; PNG, JPEG and WebP are"),
+    EXPECT_NE(picture_error("BM123456").find("a BMP picture is not supported; use PNG, JPEG or WebP"),
               std::string::npos);
     EXPECT_NE(picture_error("GIF89a").find("GIF"), std::string::npos);
     EXPECT_NE(picture_error("\xabKTX 20\xbb").find("KTX"), std::string::npos);
@@ -255,7 +257,7 @@ TEST(ReadPicture, UnreadFormatsAreNamed) {
     EXPECT_NE(picture_error("").find("empty"), std::string::npos);
     const auto bmp = read_as_environment("BM123456");
     ASSERT_FALSE(bmp);
-    EXPECT_NE(bmp.error().message.find("a BMP picture, which is not read"), std::string::npos) << bmp.error().message;
+    EXPECT_NE(bmp.error().message.find("a BMP picture is not supported"), std::string::npos) << bmp.error().message;
 }
 
 TEST(ReadLdr, SixteenBitsAreKept) {
@@ -267,7 +269,7 @@ TEST(ReadLdr, SixteenBitsAreKept) {
     for (const Rgb& pixel : loaded->image.pixels) levels.push_back(pixel.r);
     std::sort(levels.begin(), levels.end());
     levels.erase(std::unique(levels.begin(), levels.end()), levels.end());
-    // Of 190 random samples of 8 bits, more than a third would be equal to another.
+    // Among 190 random samples of 8 bits, more than a third would be equal to another.
     EXPECT_GT(levels.size(), 180u);
 }
 
@@ -283,7 +285,7 @@ TEST(ReadLdr, PicturesNeedTheOption) {
 }
 
 TEST(ReadLdr, OversizedHuffmanTablesAreRefused) {
-    // A table that claims 16 * 20 codes, of which there can be 256.
+    // A table that claims 16 * 20 codes; at most 256 are possible.
     std::string jpeg("\xff\xd8\xff\xc4\x01\x53\x00", 7);
     jpeg.append(16, 20).append(320, 'c').append("\xff\xd9");
     const auto loaded = read_as_environment(jpeg);
@@ -294,7 +296,7 @@ TEST(ReadLdr, OversizedHuffmanTablesAreRefused) {
 TEST(ReadLdr, ChunksLongerThanTheFileAreRefused) {
     const auto png = encode_png(to_srgb(test_image(16, 8), 0.02f));
     ASSERT_TRUE(png);
-    // The length of the first chunk of image data, set to 1 GiB.
+    // Set the length of the first chunk of image data to 1 GiB.
     std::string damaged = *png;
     const std::size_t at = damaged.find("IDAT") - 4;
     damaged.replace(at, 4, std::string("\x40\0\0\0", 4));

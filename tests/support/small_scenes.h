@@ -115,7 +115,7 @@ class Estimate {
     double count_ = 0, mean_ = 0, squares_ = 0;
 };
 
-/// How many standard errors two estimates differ by.
+/// Returns the difference of two estimates in standard errors.
 inline double deviation(const Estimate& a, const Estimate& b) {
     const double error = std::hypot(a.standard_error(), b.standard_error());
     const double difference = std::abs(a.mean() - b.mean());

@@ -121,7 +121,7 @@ TEST_F(ManyLights, SampledTrianglesHaveTheDensityThatIsStated) {
         const LightSample s = lights_.sample(at, pair(1, i, 0, 1).a, pair(1, i, 1, 1));
         if (s.pdf == 0 || !(s.distance < INFINITY)) continue;
         const RayHit hit = rays.closest_stop(at.position, s.direction, 0, Backs::pass);
-        // What is hidden by another triangle cannot be found by its ray.
+        // Skip points occluded by another triangle: their ray cannot find them.
         if (std::abs(hit.distance - s.distance) > 1e-4f) continue;
         const Facet& facet = surfaces_.facet(hit.triangle);
         const float pdf =

@@ -1,4 +1,4 @@
-// One pass over receivers: gather, encode, keep count.
+// One pass over receivers: gather, encode, update statistics.
 #include "bake/gather/pass.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Packing by stb_rect_pack.
+// Packs rectangles by stb_rect_pack.
 #include "bake/place/pack_rectangles.h"
 
 #include <algorithm>
@@ -6,7 +6,7 @@
 
 namespace {
 
-/// qsort's order of equals differs between platforms; this one's does not.
+/// Sorts with an order of equals that does not depend on the platform, unlike qsort's.
 template <class T, class Compare>
 void sort_stably(T* begin, int count, std::size_t, const Compare& compare) {
     std::stable_sort(begin, begin + count, [&](const T& a, const T& b) { return compare(&a, &b) < 0; });
@@ -36,7 +36,7 @@ std::size_t pack_rectangles(std::span<PackedRectangle> rectangles, int width, in
         left.push_back({static_cast<int>(i), rectangles[i].width + padding, rectangles[i].height + padding, 0, 0, 0});
     }
 
-    // Fill one page after another; the padding beyond the last rectangle of a row may hang over.
+    // Fill one page after another; the padding after the last rectangle of a row may exceed the page.
     std::vector<stbrp_node> nodes(static_cast<std::size_t>(width) + static_cast<std::size_t>(padding));
     std::uint32_t page = 0;
     for (; !left.empty(); ++page) {

@@ -1,4 +1,4 @@
-// Vertices in a grid of cells about as wide as an edge is long; each edge asks the cells that it passes.
+// Stores vertices in a grid of cells about as wide as an edge is long; each edge searches the cells that it crosses.
 #include "bake/place/split_edges.h"
 
 #include <algorithm>
@@ -24,7 +24,7 @@ double length_of(const World& world, const EdgePiece& piece) {
     return std::sqrt(dot(d, d));
 }
 
-/// The pieces' ends, sorted by their cells.
+/// The ends of the pieces, sorted by cell.
 class VertexGrid {
   public:
     VertexGrid(const World& world, std::span<const EdgePiece> pieces, double width) : width_(width) {
@@ -37,8 +37,8 @@ class VertexGrid {
         entries_.erase(std::unique(entries_.begin(), entries_.end()), entries_.end());
     }
 
-    /// Calls visit(vertex) for all in the cells that the box about a and b, grown by `margin`, touches, perhaps for
-    /// others, too; until it says false.
+    /// Calls visit(vertex) for all vertices in cells that the box about a and b, grown by `margin`, touches, and
+    /// possibly for others; stops when it returns false.
     template <class Visit>
     bool visit_near(Point a, Point b, double margin, const Visit& visit) const {
         const auto range = [&](double u, double v) {
@@ -74,7 +74,7 @@ class VertexGrid {
     std::vector<Entry> entries_;
 };
 
-/// Cuts one piece after another, within bounds for all together.
+/// Splits one piece after another, within limits for all together.
 class Splitter {
   public:
     Splitter(const World& world, std::span<const EdgePiece> pieces, double tolerance)
@@ -103,14 +103,14 @@ class Splitter {
     }
 
   private:
-    /// The mean length, so that edges pass about two cells each.
+    /// Returns the mean length, so that edges cross about two cells each.
     static double cell_width(const World& world, std::span<const EdgePiece> pieces, double tolerance) {
         double sum = 0;
         for (const EdgePiece& piece : pieces) sum += length_of(world, piece);
         return std::max({sum / static_cast<double>(std::max<std::size_t>(1, pieces.size())), 4 * tolerance, 1e-30});
     }
 
-    /// The vertices on the inside of a piece, from low to high.
+    /// Finds the vertices inside a piece, from low to high.
     void find_cuts(const EdgePiece& piece) {
         cuts_.clear();
         const Point a = point(world_->positions[piece.low]), d = point(world_->positions[piece.high]) - a;

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::uint32_t k_no_triangle = 0xffffffff;
 
-/// Which triangle owns each texel of one tile.
+/// The triangle that owns each texel of one tile.
 struct TileOwners {
     std::array<std::uint32_t, k_tile * k_tile> owner;
     std::array<float, k_tile * k_tile> cover;
@@ -20,7 +20,8 @@ std::size_t index_in(const TexelBox& tile, int x, int y) {
     return static_cast<std::size_t>(y - tile.y0) * k_tile + static_cast<std::size_t>(x - tile.x0);
 }
 
-/// Triangles that hold the texels' centres; of several the first. Whether any texel is still without.
+/// Assigns texels to triangles that contain their centres; the first of several. Returns whether any texel has no
+/// owner.
 bool own_by_centre(const Atlas& atlas, std::size_t tile, TileOwners& out) {
     const TexelBox box = atlas.box_of_tile(tile);
     std::size_t left = static_cast<std::size_t>(box.x1 - box.x0) * static_cast<std::size_t>(box.y1 - box.y0);
@@ -38,7 +39,7 @@ bool own_by_centre(const Atlas& atlas, std::size_t tile, TileOwners& out) {
     return true;
 }
 
-/// Triangles that cover most of those texels whose centres nobody holds.
+/// Assigns the remaining texels to the triangles that cover most of them.
 void own_by_cover(const Atlas& atlas, std::size_t tile, TileOwners& out) {
     const TexelBox box = atlas.box_of_tile(tile);
     for (const std::uint32_t t : atlas.triangles_of_tile(tile)) {
@@ -74,7 +75,7 @@ void for_each_owned(const Atlas& atlas, std::size_t tile, const Visit& visit) {
 }  // namespace
 
 TexelMap map_texels(const Atlas& atlas) {
-    // Tiles in groups, each with its own list; the lists are joined in order.
+    // Process tiles in groups, each with its own list, and join the lists in order.
     constexpr std::size_t k_group = 16;
     const std::size_t groups = (atlas.tiles() + k_group - 1) / k_group;
     std::vector<TexelMap> parts(groups);
@@ -91,7 +92,7 @@ TexelMap map_texels(const Atlas& atlas) {
         }
     });
 
-    // Join them, and let go of each as it is copied.
+    // Join the lists, and free each once it is copied.
     TexelMap map;
     std::size_t texels = 0;
     for (const TexelMap& part : parts) texels += part.texels.size();

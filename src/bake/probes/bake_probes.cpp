@@ -237,7 +237,7 @@ Status ProbeBaker::bake(std::span<const Place> wanted, int level) {
         session_.progress(is);
         mutex.unlock();
     });
-    if (stopped()) return Error{"stopped"};
+    if (stopped()) return Error{"stopped", Error::Kind::stopped};
     return Done{};
 }
 
@@ -319,7 +319,7 @@ Status check(const ProbeOptions& options, const World& world) {
     auto codec = make_codec(options.codec);
     if (!codec) return codec.error();
     if (codec->basis().domain() != Domain::sphere)
-        return Error{"--probe-codec: must be spherical; " + codec->basis().name() + " is a basis of the hemisphere"};
+        return Error{"--probe-codec: must be spherical; " + codec->basis().name() + " is a hemispherical basis"};
     const auto cells = cells_of(options, world);
     double probes = 1;
     for (const std::int32_t n : cells) probes *= n + 1.0;

@@ -45,7 +45,7 @@ class RegionStates {
     std::vector<float> storage_;
 };
 
-/// Where a bake's folder keeps its states.
+/// Returns the folder of a bake's states.
 [[nodiscard]] inline std::filesystem::path checkpoint_folder(const std::filesystem::path& bake) {
     return bake / "checkpoint";
 }

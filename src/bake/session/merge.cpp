@@ -67,7 +67,7 @@ class Merger {
         if (!part) return part.error();
         const RegionHeader& h = part->header;
         const auto bad = [&](std::string_view what) { return Error{fmt::format("{}: {}", file.string(), what)}; };
-        if (h.bake != bake_.hash) return bad("belongs to another scene or other options");
+        if (h.bake != bake_.hash) return bad("was baked from another scene or with other options");
         if (!seen_.emplace(h.shard_index, h.first_place).second) return bad("the same part is given twice");
         const Shard shard{h.shard_by == 0 ? Shard::By::tiles : Shard::By::samples, h.shard_index, h.shard_count};
         if (h.shard_count == 0 || h.shard_index >= h.shard_count || h.first_pass > h.end_pass)
@@ -77,7 +77,7 @@ class Merger {
         const auto texels = texels_of(bake_.map, std::span(tiles).subspan(h.first_place, h.end_place - h.first_place));
         if (h.texels != hash_of_texels(texels) || h.sites != texels.size() || h.floats != bake_.layout.floats() ||
             h.samples_per_pass != bake_.options.samples_per_pass)
-            return bad("has other texels or states than this bake");
+            return bad("has different texels or states");
 
         for (std::size_t k = 0; k < texels.size(); ++k) {
             const std::uint32_t place = place_[texels[k]];

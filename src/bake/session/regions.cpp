@@ -76,7 +76,7 @@ Result<GatheredRegion> RegionGatherer::gather(std::size_t number) {
     while (header.end_pass < plan.end_pass && !(limit && seconds_since(start_) >= part * *limit)) {
         const auto pass_start = Clock::now();
         run_pass(region, first_of_tile, header.end_pass);
-        if (stopped()) return Error{"stopped"};
+        if (stopped()) return Error{"stopped", Error::Kind::stopped};
         if (session_.progress) error_ = error_of(region.states);
         ++header.end_pass;
         header.seconds += seconds_since(pass_start);
@@ -110,7 +110,7 @@ Result<RegionStates> RegionGatherer::states_of(std::size_t region, std::span<con
     const RegionHeader &is = kept->header, &wanted = fresh.header;
     if (is.bake != wanted.bake)
         return Error{path.string() +
-                     ": belongs to another scene or other options; bake into another folder, or remove it"};
+                     ": was baked from another scene or with other options; bake into another folder, or remove it"};
     if (is.texels != wanted.texels || is.sites != wanted.sites || is.floats != wanted.floats ||
         is.samples_per_pass != wanted.samples_per_pass || is.first_pass != wanted.first_pass)
         return Error{path.string() +

@@ -84,7 +84,7 @@ Status add_scene(FilesTogether& files, const Scene& scene, Manifest& manifest) {
     manifest.scene.reset();
     const auto copy = encode_scene_copy(scene, manifest);
     if (!copy) {
-        manifest.warnings.push_back("there is no copy of the scene: " + copy.error().message);
+        manifest.warnings.push_back("the scene was not copied: " + copy.error().message);
     } else {
         manifest.scene = k_scene_name;
         if (auto status = files.add_text(k_scene_name, *copy); !status) return status;

@@ -36,7 +36,7 @@ Status check_values(const std::filesystem::path& path, const ExrPlanes& file, st
     const auto share = [](float v) { return v >= 0 && v <= 1; };
     if (auto s = check_plane(path, "validity", file.planes[channels], file.width, "not in [0, 1]", share); !s) return s;
     const auto number = [](float v) { return v >= 0 && v <= static_cast<float>(k_most_charts) && v == std::floor(v); };
-    return check_plane(path, "chart", file.planes[channels + 1], file.width, "no chart's number", number);
+    return check_plane(path, "chart", file.planes[channels + 1], file.width, "not a valid chart number", number);
 }
 
 }  // namespace

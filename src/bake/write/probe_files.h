@@ -17,7 +17,7 @@ inline constexpr int k_probes_version = 1;
 /// The binary file: red, green, blue of coefficient after coefficient, probe after probe.
 [[nodiscard]] Status write_probe_coefficients(StagedFile& file, const ProbeSet& probes);
 
-/// What the JSON file holds: probes without their coefficients, and the name of the file with those.
+/// Content of the JSON file: probes without their coefficients, and the name of the file with the coefficients.
 struct ProbeDescription {
     ProbeSet probes;
     std::string file;

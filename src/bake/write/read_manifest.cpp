@@ -1,4 +1,4 @@
-// bake.json, read: anybody may have written it.
+// Reads bake.json, which is untrusted.
 #include <fmt/format.h>
 
 #include <charconv>
@@ -47,7 +47,7 @@ void read_codec(const JsonPlace& codec, Manifest& m) {
     if (stated != m.coefficients)
         codec.at("coefficients").refuse(fmt::format("{} has {} coefficients", name->basis, m.coefficients));
     if ((*basis)->domain() == Domain::hemisphere && m.options.frame != Frame::tangent)
-        codec.at("frame").refuse(name->basis + " is a basis of the hemisphere, which stands in the tangent frame");
+        codec.at("frame").refuse(name->basis + " is a hemispherical basis, which requires the tangent frame");
 }
 
 /// The textures that storages make of the codec's coefficients, by storage and name.
@@ -85,7 +85,8 @@ class KnownTextures {
 };
 
 TextureEntry read_texture(const JsonPlace& place, KnownTextures& known) {
-    // What the channels hold follows from the storage. Should that change one day, old files must not be misread.
+    // The storage determines the content of the channels. Refuse other contents, so that later versions cannot misread
+    // old files.
     const TextureLayout::Texture& layout = known.at(place);
     place.expect(nlohmann::json::parse(texture_json(layout)));
     const auto scale = static_cast<float>(place.at("scale").number_in(0x1p-149, 0x1p127));

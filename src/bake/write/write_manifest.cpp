@@ -40,7 +40,7 @@ ordered_json to_json(const ObjectEntry& object, const Manifest& m) {
             {"texels", {p.texels.x0, p.texels.y0, p.texels.x1, p.texels.y1}}};
 }
 
-/// For people; readers may rely on the version alone.
+/// Writes conventions for people; readers may rely on the version alone.
 ordered_json conventions(const Manifest& m) {
     const bool tangent = m.options.frame == Frame::tangent;
     return {

@@ -98,8 +98,8 @@ Direction across(const Direction& a, const Direction& b) {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-/// The direction of the largest saving near `d`: steps along a shrinking cross on the sphere, in double precision, for
-/// near the top there is little to tell directions by.
+/// Returns the direction of the largest saving near `d`: steps along a shrinking cross on the sphere, in double
+/// precision, because values near the maximum hardly differ.
 Direction searched(const Target& target, Direction d) {
     double saved = target.at(d).saved;
     for (double step = 0.4; step > 1e-6;) {
@@ -126,7 +126,7 @@ class Punctual final : public Evaluator {
   public:
     [[nodiscard]] std::string name() const override { return "punctual"; }
     [[nodiscard]] Accuracy accuracy() const override {
-        return {"everywhere", "no error: it is what the coefficients mean", Reading::of_its_own, 1e-5};
+        return {"everywhere", "exact by definition", Reading::of_its_own, 1e-5};
     }
     void signed_irradiance(std::span<const Rgb> c, DirectionView normals, MutableColourView out) const override {
         HWY_DYNAMIC_DISPATCH(HighlightRows)

@@ -57,7 +57,7 @@ class Squares final : public Evaluator {
     explicit Squares(const Rotation& cube_from_domain) : cube_from_domain_(cube_from_domain) {}
     [[nodiscard]] std::string name() const override { return "squares"; }
     [[nodiscard]] Accuracy accuracy() const override {
-        return {"everywhere", "no error: it is what the coefficients mean", Reading::of_its_own, 1e-5};
+        return {"everywhere", "exact by definition", Reading::of_its_own, 1e-5};
     }
     void signed_irradiance(std::span<const Rgb> c, DirectionView normals, MutableColourView out) const override {
         read_sides(c, cube_from_domain_, 1, normals, out);

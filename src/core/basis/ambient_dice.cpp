@@ -18,8 +18,8 @@ using icosahedron::vertices;
 
 constexpr std::size_t k_vertices = 12, k_functions = 3 * k_vertices;
 
-/// What is constant of a face: planes whose distances are the barycentric coordinates, and how each edge that leaves a
-/// corner lies in the tangents of that corner.
+/// Constants of a face: planes whose distances are the barycentric coordinates, and the direction of each edge from a
+/// corner in the tangents of that corner.
 struct Face {
     std::array<std::size_t, 3> corner{};
     Vec3 middle;
@@ -154,7 +154,7 @@ SphereRule face_rule() {
 
 constexpr std::size_t k_degree = 8;
 
-/// What is integrated once, in the frame of the dice.
+/// Integrals that are computed once, in the frame of the dice.
 struct Tables {
     Eigen::MatrixXd products;             ///< 48 x 48, of all functions
     std::vector<double> integrals;        ///< 48

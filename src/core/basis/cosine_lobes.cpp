@@ -149,7 +149,7 @@ class SquaredCosines final : public LinearEvaluator {
     }
     [[nodiscard]] std::string name() const override { return "squares"; }
     [[nodiscard]] Accuracy accuracy() const override {
-        return {"everywhere", "no error: it is a model", Reading::of_its_own, furnace_};
+        return {"everywhere", "none stated: a model", Reading::of_its_own, furnace_};
     }
     [[nodiscard]] std::size_t size() const override { return shares_.size(); }
     void values(DirectionView block, float* rows) const override {

@@ -18,7 +18,7 @@ constexpr std::array k_kinds = {std::pair{Kind::sh1h, "sh1h"}, std::pair{Kind::i
                                 std::pair{Kind::enlighten, "enlighten"},
                                 std::pair{Kind::enlighten_rgb, "enlighten-rgb"}};
 
-/// From degree-1 coefficients to E and back: E = pi Y_0 c_0 + 2 pi / 3 sqrt(3 / 4 pi) (c_3, c_1, c_2) . n.
+/// Converts degree-1 coefficients to E and back: E = pi Y_0 c_0 + 2 pi / 3 sqrt(3 / 4 pi) (c_3, c_1, c_2) . n.
 const double k_constant_factor = std::sqrt(k_pi) / 2;
 const double k_slope_factor = std::sqrt(k_pi / 3);
 

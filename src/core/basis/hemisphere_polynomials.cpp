@@ -77,7 +77,7 @@ class ExactAboveHorizon final : public LinearEvaluator {
     [[nodiscard]] std::size_t size() const override { return irradiance_.size(); }
     void values(DirectionView block, float* rows) const override {
         irradiance_.values(block, rows);
-        // From monomials to the basis: row 2 is of 2z - 1.
+        // Convert monomials to the basis: row 2 belongs to 2z - 1.
         const auto k0 = static_cast<float>(HemispherePolynomials::factor(0)),
                    k1 = static_cast<float>(HemispherePolynomials::factor(1)),
                    k2 = static_cast<float>(HemispherePolynomials::factor(2));

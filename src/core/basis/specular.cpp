@@ -32,7 +32,7 @@ class SampledSpecular final : public SpecularEvaluator {
     [[nodiscard]] Rgb sum(const std::vector<ggx::Ray>& rays, DirectionView directions, ColourView radiance) const {
         Rgb total;
         for (std::size_t j = 0; j < rays.size(); ++j) {
-            // A basis over the hemisphere says nothing of what lies below.
+            // A basis over the hemisphere is undefined below the horizon.
             if (basis_->domain() == Domain::hemisphere && directions.channel(2)[j] < 0) continue;
             const Rgb L = colour_at(radiance, j);
             total = total + Rgb{std::max(0.0f, L.r), std::max(0.0f, L.g), std::max(0.0f, L.b)} * rays[j].weight;

@@ -112,7 +112,7 @@ class SequentialEncoder : public LinearEncoder {
     /// The step of a sample of weight `weight`; counts it in.
     virtual float step(float weight, Progress& progress) const = 0;
     virtual void update(const kernels::Sequential& s, ColourView radiance, const Steps& steps) const = 0;
-    /// How far the other estimate's lobe counts, and how the numbers per lobe combine.
+    /// Define the weight of the other estimate's lobe in a merge, and the merge of the numbers per lobe.
     [[nodiscard]] virtual float merge_share(std::span<const float> /*state*/, std::span<const float> /*other*/,
                                             std::size_t /*per_lobe*/, float share) const {
         return share;

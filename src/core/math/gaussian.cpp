@@ -156,7 +156,7 @@ double zonal_sum(const std::vector<double>& series, double c) {
 }
 
 double irradiance(double sharpness, double c) {
-    // In closed form at the pole, opposite and across; below sharpness 1 that would cancel.
+    // Use closed forms at the pole, opposite and across; below sharpness 1 they would cancel.
     const double s = sharpness, e = std::exp(-s);
     if (s >= 1 && c == 1) return 2 * k_pi * (s - 1 + e) / (s * s);
     if (s >= 1 && c == -1) return 2 * k_pi * e * (1 - e * (1 + s)) / (s * s);

@@ -124,7 +124,7 @@ void Sum(std::size_t degree, const float* table, const Rgb* c, DirectionView dir
         out);
 }
 
-/// At one direction, red, green and blue side by side in a vector.
+/// Evaluates one direction, with red, green and blue in the lanes of a vector.
 template <class Degree, class Wanted>
 HWY_INLINE Rgb sum_at(Degree degree, const Wanted& wanted, const float* table, const Rgb* c, const float* factors,
                       const Vec3& w) {

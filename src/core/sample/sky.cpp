@@ -59,8 +59,8 @@ constexpr std::array<double, 33> k_ozone{0.003, 0.006, 0.009, 0.014, 0.021, 0.03
                                          0.103, 0.120, 0.120, 0.115, 0.125, 0.120, 0.105, 0.090, 0.079, 0.067, 0.057,
                                          0.048, 0.036, 0.028, 0.023, 0.018, 0.014, 0.011, 0.010, 0.009, 0.007, 0.004};
 
-/// How much sunlight of `nanometres` arrives through relative air mass `m` (appendix A.1). Water vapour and mixed gases
-/// are left out: they absorb beyond 690 nm, where 0.2 % of the sun's luminance lies.
+/// Returns the transmittance of sunlight of `nanometres` through relative air mass `m` (appendix A.1). Water vapour and
+/// mixed gases are ignored: they absorb beyond 690 nm, where 0.2 % of the sun's luminance lies.
 double transmittance(int nanometres, double turbidity, double m) {
     const double um = nanometres * 1e-3;
     const double rayleigh = 0.008735 * std::pow(um, -4.08);

@@ -49,7 +49,7 @@ float spread_at(const CoefficientPlanes& c, std::size_t coefficient, std::size_t
     return spread;
 }
 
-/// Whether the storage can hold a texel's value, or has to cut it.
+/// Returns whether the storage can hold a texel's value without clamping.
 bool is_within(const Storage& storage, const CoefficientTraits& traits, const CoefficientPlanes& c, std::size_t plane,
                std::size_t texel) {
     const float value = c.planes[plane][texel];
@@ -130,7 +130,7 @@ void allowed_error(const Storage& storage, const CoefficientTraits& traits, cons
     float largest = 0;
     for (const float* plane : coefficients.planes)
         largest = std::max(largest, largest_magnitude(plane, coefficients.size()));
-    // What is too large for a format is divided first, and with it what the format can tell from 0.
+    // Scale the absolute error like the values, which are divided if they are too large for the format.
     ErrorBound bound = storage.bound;
     bound.absolute *= storing_scale(layout.textures.front().format, largest);
     for (std::size_t p = 0; p < coefficients.planes.size(); ++p) {

@@ -22,7 +22,7 @@ std::size_t rgb_index(Component component) { return static_cast<std::size_t>(com
 
 std::size_t divided(std::size_t size, std::size_t subsampling) { return (size + subsampling - 1) / subsampling; }
 
-/// Whether a channel is a plane as it is.
+/// Returns whether a channel stores a plane unchanged.
 bool is_plane(const StoredChannel& channel, const Texture& texture, float scale) {
     return is_rgb(channel.component) && channel.form == Form::value && channel.scale == 1 && channel.offset == 0 &&
            texture.subsampling == 1 && scale == 1;
@@ -122,7 +122,7 @@ void unpack_channel(const StoredChannel& channel, const Texture& texture, const 
     const float inverse = 1 / channel.scale;
     std::vector<float> row(packed.width * texture.subsampling);
     for (std::size_t y = 0; y < out.height; ++y) {
-        // What the channel gives back along a row of texels.
+        // Decode the channel along a row of texels.
         const float* from = decoded + y / texture.subsampling * packed.width;
         for (std::size_t x = 0; x < packed.width; ++x) row[x] = (from[x] * packed.scale - channel.offset) * inverse;
         if (texture.subsampling == 2) repeat_each(row, packed.width);

@@ -1,4 +1,4 @@
-// A binary glTF file as it grows.
+// Builds a binary glTF file.
 #include "scene/gltf/glb_builder.h"
 
 #include <algorithm>
@@ -94,7 +94,7 @@ Result<std::string> GlbBuilder::finish() {
     std::string text = root_.dump(-1, ' ', false, json::error_handler_t::replace);
     pad(text, ' ');
 
-    // A header of 12 bytes, then each part after its length and type.
+    // Write a header of 12 bytes, then each chunk after its length and type.
     const std::size_t size = 12 + 8 + text.size() + (binary_.empty() ? 0 : 8 + binary_.size());
     if (size > std::numeric_limits<std::uint32_t>::max())
         return Error{"the scene takes more than 4 GiB, which a .glb file cannot hold"};

@@ -8,7 +8,7 @@
 namespace lobelia::gltf {
 namespace {
 
-/// A transform with its scale removed, right-handed; nothing where its axes are degenerate.
+/// Returns a transform without its scale, right-handed; nothing if its axes are degenerate.
 std::optional<Transform> without_scale(const Transform& t) {
     const auto column = [&](int k) {
         const auto part = [&](Vec3 row) { return k == 0 ? row.x : k == 1 ? row.y : row.z; };
@@ -16,7 +16,7 @@ std::optional<Transform> without_scale(const Transform& t) {
     };
     Vec3 z = column(2), y = column(1);
     const auto unit = [](Vec3& v) {
-        // Twice, for a very small or large one.
+        // Normalise twice, for very small and large scales.
         for (int i = 0; i < 2; ++i) {
             const float largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
             if (!(largest > 0)) return false;
@@ -36,8 +36,8 @@ std::optional<Transform> without_scale(const Transform& t) {
     return result;
 }
 
-/// The half angles of a spot light. Exporters write equal angles for a hard edge (three.js by default), and pi / 2
-/// rounded up to the next float.
+/// Reads the half angles of a spot light. Exporters write equal angles for a hard edge (three.js by default), and pi /
+/// 2 rounded up to the next float.
 void read_cone(const JsonPlace& source, PunctualLight& light) {
     constexpr double k_rounding = 1e-6;
     light.outer_angle = static_cast<float>(0.25 * k_pi);
@@ -59,7 +59,7 @@ void read_kind(const JsonPlace& source, PunctualLight& light) {
         read_cone(source, light);
     } else if (type == "directional") {
         light.kind = PunctualLight::Kind::directional;
-        // glTF has no size for it: our own files carry one in the extras.
+        // Read the sun's size from the extras that write_gltf adds: glTF has no member for it.
         const auto extras = source.find("extras");
         const auto radius = extras && extras->is_object() ? extras->find("angular_radius") : std::nullopt;
         if (radius && !(radius->number() >= 0 && radius->number() < 0.5 * k_pi))
@@ -100,7 +100,7 @@ void add_light(Document& document, const NodeTree& tree, std::size_t node, Scene
     if (light.kind != PunctualLight::Kind::directional) light.position = placed.translation;
     if (light.kind != PunctualLight::Kind::point) {
         const auto axes = without_scale(placed);
-        if (!axes) source.refuse("its scale leaves the light no direction");
+        if (!axes) source.refuse("degenerate scale: the light has no direction");
         light.direction = Vec3{axes->rows[0].z, axes->rows[1].z, axes->rows[2].z} * -1;
     }
     scene.lights.push_back(std::move(light));
@@ -121,7 +121,7 @@ void add_camera(Document& document, const NodeTree& tree, std::size_t node, Scen
     camera.vertical_field_of_view = angle.single();
     if (!(camera.vertical_field_of_view > 0 && camera.vertical_field_of_view < 3.1415f)) angle.refuse("not in (0, pi)");
     const auto axes = without_scale(relative_to(scene.origin, tree.world_from_node[node]));
-    if (!axes) document.nodes[node].refuse("its scale leaves the camera no axes");
+    if (!axes) document.nodes[node].refuse("degenerate scale: the camera has no axes");
     camera.world_from_camera = *axes;
     scene.cameras.push_back(std::move(camera));
 }

@@ -1,4 +1,4 @@
-// Choosing a source, and a point on it.
+// Sampling a light source, and a point on it.
 #include "trace/light/light.h"
 
 #include <cassert>
@@ -10,7 +10,8 @@ namespace lobelia {
 namespace {
 
 
-/// Uniform over the spherical cap about z whose rim has cosine 1 - flatness; exact for the smallest discs.
+/// Maps a point uniformly to the spherical cap about z whose rim has cosine 1 - flatness; accurate for the smallest
+/// discs.
 Vec3 cap_direction(float flatness, Pair point) {
     const float h = flatness * point.a, r = std::sqrt(h * (2 - h));
     const auto [c, s] = cos_sin_turns(point.b);
@@ -22,14 +23,14 @@ bool in_cap(Vec3 axis, float flatness, Vec3 direction) {
     return dot(d, d) <= 2 * flatness;
 }
 
-/// KHR_lights_punctual's window, which brings light to 0 at `range`.
+/// Returns KHR_lights_punctual's window, which attenuates light to 0 at `range`.
 float range_window(float distance2, float range) {
     if (range <= 0) return 1;
     const float q = distance2 / (range * range);
     return std::clamp(1 - q * q, 0.0f, 1.0f);
 }
 
-/// The cone of KHR_lights_punctual at `cosine` to the spot's direction; equal angles make a hard edge.
+/// Returns KHR_lights_punctual's spot attenuation at `cosine` to the spot's direction; equal angles make a hard edge.
 float spot_cone(const PunctualLight& light, float cosine) {
     const float inner = std::cos(light.inner_angle), outer = std::cos(light.outer_angle);
     if (!(inner > outer)) return cosine >= outer ? 1 : 0;
@@ -42,11 +43,11 @@ float spot_cone(const PunctualLight& light, float cosine) {
 SkyLight Lights::sky(const GroupWeights& weights, float total, const EnvironmentSample& environment) const {
     SkyLight light{environment.radiance, 0};
     const auto probability = [&](const LightSource& s) { return total > 0 ? s.share * weights[s.group] / total : 0; };
-    if (environment_ && aimed_at_) light.pdf = probability(sources_[0]) * environment.pdf;
+    if (environment_ && sample_lights_) light.pdf = probability(sources_[0]) * environment.pdf;
     for (const Sun& sun : suns_)
         if (sun.flatness > 0 && in_cap(sun.axes.z, sun.flatness, environment.direction)) {
             light.radiance = light.radiance + sun.radiance;
-            if (aimed_at_) light.pdf += probability(sources_[sun.source]) * sun.disc_pdf;
+            if (sample_lights_) light.pdf += probability(sources_[sun.source]) * sun.disc_pdf;
         }
     return light;
 }
@@ -59,7 +60,7 @@ SkyLight Lights::sky(const Vantage& at, Vec3 direction) const {
 }
 
 float Lights::triangle_pdf(const Vantage& at, std::uint32_t emitter, float distance, float cosine) const {
-    if (!aimed_at_) return 0;
+    if (!sample_lights_) return 0;
     GroupWeights weights;
     const float total = weights_.weigh(at, weights);
     const LightSource& s = sources_[source_of_emitter_[emitter]];
@@ -67,7 +68,7 @@ float Lights::triangle_pdf(const Vantage& at, std::uint32_t emitter, float dista
 }
 
 LightSample Lights::sample_triangle(const LightSource& source, float probability, const Vantage& at, Pair point) const {
-    // Choose a point uniformly by area (folding the square along its diagonal would tear strata; the root does not).
+    // Choose a point uniformly by area (folding the square along its diagonal would break strata; the root does not).
     const std::uint32_t triangle = surfaces_->emissive()[source.index];
     const Facet& f = surfaces_->facet(triangle);
     const float root = std::sqrt(point.a), u = root * (1 - point.b), v = root * point.b;
@@ -75,7 +76,7 @@ LightSample Lights::sample_triangle(const LightSource& source, float probability
     const float side = dot(f.normal, to);
     if (side == 0 || (side > 0 && !surfaces_->double_sided(triangle))) return {};
 
-    // Aim a little before it, so that it does not hide itself.
+    // End the shadow ray a little before the triangle, so that it does not hit the emitter itself.
     const Vec3 aim = to + f.normal * (side > 0 ? -f.lift : f.lift);
     const float distance2 = dot(to, to), distance = std::sqrt(distance2);
     const float pdf = probability * distance2 * distance / (source.area * std::abs(side));
@@ -100,7 +101,7 @@ LightSample Lights::sample_sky(const LightSource& source, const GroupWeights& we
     if (source.kind == Kind::environment) {
         const EnvironmentLight::Drawn drawn = environment_->draw(point);
         if (dot(at.normal, drawn.direction) < 0) return {};
-        environment = environment_->look(drawn);
+        environment = environment_->evaluate(drawn);
     } else {
         const Sun& sun = suns_[source.index];
         if (sun.flatness == 0) {
@@ -116,16 +117,17 @@ LightSample Lights::sample_sky(const LightSource& source, const GroupWeights& we
 }
 
 LightSample Lights::sample(const Vantage& at, float choice, Pair point) const {
-    if (!aimed_at_ || groups_.empty()) return {};
+    if (!sample_lights_ || groups_.empty()) return {};
 
-    // Choose a group by its weight; what is left of the number chooses within it.
+    // Choose a group by its weight; reuse the remainder of the random number to choose within it.
     GroupWeights weights;
     const float total = weights_.weigh(at, weights);
     if (!(total > 0)) return {};
     float rest = choice * total;
     std::size_t g = 0;
     while (g + 1 < groups_.size() && rest >= weights[g]) rest -= weights[g++];
-    while (weights[g] == 0) --g;  // rounding may step past the last one; the total says that there is one
+    while (weights[g] == 0)
+        --g;  // rounding may step past the last group with a weight; a positive total guarantees one
     const LightGroup& group = groups_[g];
     std::uint32_t chosen = group.first;
     if (group.table) {
@@ -133,7 +135,7 @@ LightSample Lights::sample(const Vantage& at, float choice, Pair point) const {
         chosen += static_cast<std::uint32_t>(group.table->sample(left).index);
     }
 
-    // Sample the source itself.
+    // Sample the chosen source.
     const LightSource& source = sources_[chosen];
     if (group.far) return sample_sky(source, weights, total, at, point);
     const float probability = source.share * weights[g] / total;

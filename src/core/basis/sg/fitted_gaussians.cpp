@@ -79,7 +79,7 @@ FittedGaussians::Lobes FittedGaussians::lobes(std::span<const Rgb> c) {
 
 void FittedGaussians::fit(std::span<const Rgb> accumulated, std::span<Rgb> c) const {
     std::fill(c.begin(), c.end(), Rgb{});
-    // From the map's frame to that of the domain.
+    // Rotate from the map's frame to that of the domain.
     const Rotation& m = texels_->map_from_domain();
     const auto lobes = fit_lobes(accumulated, count_);
     for (std::size_t j = 0; j < lobes.size(); ++j) {

@@ -25,7 +25,7 @@ class FittedGaussians final : public FittedBasis {
     [[nodiscard]] std::string name() const override { return "sgfit" + std::to_string(count_); }
     [[nodiscard]] std::string description() const override;
     [[nodiscard]] Domain domain() const override { return Domain::sphere; }
-    /// Those of SgIrradiance that hold for any sharpness.
+    /// Returns the evaluators of SgIrradiance that are valid for any sharpness.
     [[nodiscard]] std::vector<std::string> evaluator_names() const override {
         return {"tokuyoshi", "odd-exact", "odd-exact-2", "exact"};
     }

@@ -59,7 +59,7 @@ class Problem {
         for (auto& free : free_) free.fill(true);
     }
 
-    /// Of the light, squared and integrated.
+    /// Returns the integral of the squared light.
     [[nodiscard]] double energy() const { return energy_; }
     [[nodiscard]] Rgb amplitude(std::size_t j) const { return amplitudes_[j]; }
 

@@ -47,7 +47,7 @@ Rgb each_channel(Rgb a, Rgb b, const F& f) {
     return {f(a.r, b.r), f(a.g, b.g), f(a.b, b.b)};
 }
 
-/// What a mean over the domain is multiplied by to be E / pi: |domain| / pi times 1/4, and times 1/2.
+/// Returns the factor from a mean over the domain to E / pi: |domain| / pi times 1/4, and times 1/2.
 constexpr float half_factor(Domain domain) { return domain == Domain::sphere ? 2 : 1; }
 
 }  // namespace

@@ -122,7 +122,7 @@ class Model final : public Evaluator {
     [[nodiscard]] std::string name() const override { return name_; }
     [[nodiscard]] Negative negative() const override { return Negative::clamped; }
     [[nodiscard]] Accuracy accuracy() const override {
-        return {range_, "no error: it is a model", Reading::of_its_own, 1e-5};
+        return {range_, "none stated: a model", Reading::of_its_own, 1e-5};
     }
     void signed_irradiance(std::span<const Rgb> c, DirectionView normals, MutableColourView out) const override {
         read_(c, normals, out);

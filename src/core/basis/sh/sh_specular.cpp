@@ -43,7 +43,7 @@ class ZonalSpecular final : public SpecularEvaluator {
     }
 
   private:
-    // Root mean square over points, over that of the truth, for a lobe of degrees 2 to 8.
+    // Root mean square over points, over that of the reference, for a lobe of degrees 2 to 8.
     static constexpr const char* k_range = "alpha 0.1 to 0.8, n.v 0.25 to 1";
     static constexpr const char* k_convolution_error = "0.13 of the reflected light, RMS; 0 to degree 1";
     static constexpr const char* k_prefiltered_error = "0.7 of the reflected light, RMS; 0 for degree 0";

@@ -32,7 +32,7 @@ Matrix3d form_of(std::span<const Rgb> c, std::size_t k) {
     return m;
 }
 
-/// What an axis is worth: F(a) = a^T B a + sum_k s (a^T M_k a)^2, the error of irradiance that it saves.
+/// The gain of an axis: F(a) = a^T B a + sum_k s (a^T M_k a)^2, the reduction of the irradiance error.
 struct Gain {
     Matrix3d b;
     std::vector<Matrix3d> forms;
