@@ -52,13 +52,8 @@ struct Accuracy {
 /// Treatment of radiance or irradiance below 0, which a fit may have: kept, or clamped to 0.
 enum class Negative { kept, clamped };
 
-<<<<<<< HEAD
-/// Evaluates coefficients as irradiance E(n) [W/m^2] at unit normals n. No call allocates memory but a thread's first,
-/// for working memory that it keeps. Exceptions: "dering", and the evaluators of fitted lobes (sgfit*), which search.
-=======
 /// Evaluates coefficients as irradiance E(n) [W/m^2] at unit normals n. Allocates nothing, except working memory of
-/// each thread at its first call.
->>>>>>> english
+/// each thread at its first call. Exceptions: "dering" and the evaluators of fitted lobes (sgfit*), which search.
 class Evaluator {
   public:
     virtual ~Evaluator() = default;

@@ -28,16 +28,10 @@ struct SceneSource {
 /// A scene that passes check_scene, and the reader's warnings.
 struct LoadedScene {
     Scene scene;
-<<<<<<< HEAD
     std::vector<std::string> warnings = {};
-    /// The parts without lightmap UVs of meshes that have them elsewhere, by their places in the file.
+    /// Primitives without lightmap UVs in meshes that have them elsewhere, by their places in the file.
     std::vector<std::string> parts_without_lightmap_uv = {};
     SceneSource source = {};  ///< of load_scene(); a job that keeps it can be resumed by the command line
-=======
-    std::vector<std::string> warnings;
-    /// Primitives without lightmap UVs in meshes that have them elsewhere, by their places in the file.
-    std::vector<std::string> parts_without_lightmap_uv;
->>>>>>> english
 };
 
 /// Reads or makes the scene and sets its environment. Errors name the file, the place in it and the remedy.

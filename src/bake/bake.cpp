@@ -104,7 +104,8 @@ Status fill_up_from(const Bake& finished, const BakeSetup& setup, std::vector<Li
     return Done{};
 }
 
-/// Denoises the pages; `complete` may then add texels from elsewhere; closes seams, dilates, and fits the codec's coefficients.
+/// Denoises the pages; `complete` may then add texels from elsewhere; closes seams, dilates, and fits the codec's
+/// coefficients.
 template <class Complete>
 Status finish(BakeWork& work, const FinishOptions& steps, const BakeSession& session, const Complete& complete) {
     const BakeSetup& setup = *work.setup;
@@ -125,8 +126,8 @@ Status finish(BakeWork& work, const FinishOptions& steps, const BakeSession& ses
     if (steps.seams == Switch::on) {
         if (fitted) {
             warn(work.bake, session,
-                 "seams around the object are not closed: the coefficients of " +
-                     setup.encoding.codec()->name().basis + " are not linear in the light");
+                 "seams around the object are not closed: the coefficients of " + setup.encoding.codec()->name().basis +
+                     " are not linear in the light");
         } else {
             SeamSurroundings around{setup.tracer.get(), {}};
             if (setup.options.push_out == Switch::on)

@@ -6,13 +6,8 @@
 namespace lobelia {
 namespace {
 
-<<<<<<< HEAD
-/// Points beyond the square are not drawn, but must not cost time either.
-struct UvBox {
-=======
 /// A range of grid indices, clipped to the square to limit the cost of triangles beyond it.
-struct Box {
->>>>>>> english
+struct UvBox {
     std::size_t begin, end;
 };
 UvBox clipped(float low, float high, std::size_t grid) {

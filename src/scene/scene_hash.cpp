@@ -1,8 +1,4 @@
-<<<<<<< HEAD
-// A scene's fingerprint, field after field.
-=======
-// A scene's hash: 64-bit words, mixed in by multiplication, field after field.
->>>>>>> english
+// A scene's hash, field after field.
 #include "scene/scene_hash.h"
 
 #include <bit>
@@ -16,42 +12,9 @@ namespace {
 /// A type of this file, so that all add() below are found for it.
 struct SceneHash : Hash {};
 
-<<<<<<< HEAD
 void add(SceneHash& hash, float value) { hash.word(std::bit_cast<std::uint32_t>(value)); }
 void add(SceneHash& hash, bool value) { hash.word(value ? 1 : 0); }
 void add(SceneHash& hash, const std::string& text) { hash.bytes(text.data(), text.size()); }
-=======
-/// Mixing a word is a bijection of the state: two inputs of equal length that differ in one word never collide.
-class Hash {
-  public:
-    void word(std::uint64_t value) {
-        // The factor is 2^64 over the golden ratio, odd: it spreads low bits upwards; the shift brings high bits down
-        // again.
-        state_ = (state_ ^ value) * 0x9e3779b97f4a7c15u;
-        state_ ^= state_ >> 32;
-    }
-    void bytes(const void* data, std::size_t size) {
-        word(size);
-        const auto* next = static_cast<const unsigned char*>(data);
-        for (; size >= 8; size -= 8, next += 8) {
-            std::uint64_t value = 0;
-            std::memcpy(&value, next, 8);
-            word(value);
-        }
-        std::uint64_t rest = 0;
-        if (size > 0) std::memcpy(&rest, next, size);
-        word(rest);
-    }
-    [[nodiscard]] std::uint64_t value() const { return state_; }
-
-  private:
-    std::uint64_t state_ = 0x6c6f62656c696131u;  ///< "lobelia1": so that leading zeros change the hash
-};
-
-void add(Hash& hash, float value) { hash.word(std::bit_cast<std::uint32_t>(value)); }
-void add(Hash& hash, bool value) { hash.word(value ? 1 : 0); }
-void add(Hash& hash, const std::string& text) { hash.bytes(text.data(), text.size()); }
->>>>>>> english
 template <class T>
 requires std::is_enum_v<T> ||(std::is_integral_v<T> && !std::is_same_v<T, bool>)void add(SceneHash& hash, T value) {
     hash.word(static_cast<std::uint64_t>(value));

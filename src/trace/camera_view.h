@@ -45,11 +45,6 @@ class CameraView {
     /// the path tracer's.
     void resolve(std::span<const PathStart> rays, std::span<Sight> out) const;
 
-<<<<<<< HEAD
-=======
-    /// Returns whether any ray can resolve to a kind other than `paths`.
-    [[nodiscard]] bool has_more_than_paths() const { return more_than_paths_; }
->>>>>>> english
     [[nodiscard]] const Surfaces& surfaces() const { return surfaces_; }
     /// Returns the base colour of an unlit surface.
     [[nodiscard]] Rgb unlit_color(const PathTracer::Hit& hit) const;

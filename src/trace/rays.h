@@ -10,13 +10,9 @@
 
 namespace lobelia {
 
-<<<<<<< HEAD
 inline constexpr float k_infinite = std::numeric_limits<float>::infinity();
 
-/// The first triangle on a ray.
-=======
 /// The first triangle hit.
->>>>>>> english
 struct RayHit {
     float distance = 0;  ///< infinite: none
     std::uint32_t triangle = 0;

@@ -7,12 +7,7 @@
 namespace lobelia {
 namespace {
 
-<<<<<<< HEAD
-/// A front this much farther away, relatively, lies on the same spot as the back that was met.
-=======
-constexpr float k_infinite = std::numeric_limits<float>::infinity();
 /// Relative distance within which a front face coincides with the back face that was hit.
->>>>>>> english
 constexpr float k_same_spot = 1e-5f;
 
 }  // namespace

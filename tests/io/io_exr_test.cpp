@@ -48,7 +48,8 @@ TEST(ReadExr, RoundTripOfEveryCompressionTypeAndLayout) {
         for (const Imf::PixelType type : {Imf::HALF, Imf::FLOAT, Imf::UINT}) {
             for (const Layout layout : {Layout::scan_lines, Layout::tiles, Layout::mipmap, Layout::ripmap}) {
                 const auto compression = static_cast<Imf::Compression>(c);
-                const auto loaded = read_exr_bytes(make_exr(image, {.layout = layout, .compression = compression, .type = type}));
+                const auto loaded =
+                    read_exr_bytes(make_exr(image, {.layout = layout, .compression = compression, .type = type}));
                 ASSERT_TRUE(loaded) << message_of(loaded);
                 // Whole numbers survive all lossless schemes; the lossy ones keep about 5 bits of this noise.
                 EXPECT_LE(largest_difference(loaded->image, image), is_lossy(compression, type) ? 2 : 0)
@@ -89,10 +90,11 @@ TEST(ReadExr, TheImageIsTheDisplayWindow) {
                             Window{-5, 4, 9, 13, "are black"}, Window{0, 0, 19, 9, ""}}) {
         for (const Layout layout : {Layout::scan_lines, Layout::tiles})
             for (const std::vector<std::string>& channels : {std::vector<std::string>{"R", "G", "B"}, {"Y"}}) {
-                const auto loaded = read_exr_bytes(make_exr(image, {.layout = layout,
-                                                          .channels = channels,
-                                                          .left = 0,
-                                                          .display = std::array{w.left, w.top, w.right, w.bottom}}));
+                const auto loaded =
+                    read_exr_bytes(make_exr(image, {.layout = layout,
+                                                    .channels = channels,
+                                                    .left = 0,
+                                                    .display = std::array{w.left, w.top, w.right, w.bottom}}));
                 ASSERT_TRUE(loaded) << message_of(loaded);
                 ASSERT_EQ(loaded->image.width, static_cast<std::size_t>(w.right - w.left + 1));
                 ASSERT_EQ(loaded->image.height, static_cast<std::size_t>(w.bottom - w.top + 1));
@@ -294,9 +296,11 @@ TEST(ReadExr, HostileHeadersAreRefused) {
         EXPECT_FALSE(read_exr_bytes(patched(good, tiles, 4, size))) << size;
         EXPECT_FALSE(read_exr_bytes(patched(good, tiles, 8, size))) << size;
     }
-    for (const std::int32_t size : {0, 5, -1, 1 << 30}) EXPECT_FALSE(read_exr_bytes(patched(good, window, 0, size))) << size;
+    for (const std::int32_t size : {0, 5, -1, 1 << 30})
+        EXPECT_FALSE(read_exr_bytes(patched(good, window, 0, size))) << size;
     // Sampling of channel B, after its name, type and padding; and an allowed size that the bytes cannot hold.
-    for (const std::int32_t rate : {0, -1, 2}) EXPECT_FALSE(read_exr_bytes(patched(good, channels, 4 + 2 + 8, rate))) << rate;
+    for (const std::int32_t rate : {0, -1, 2})
+        EXPECT_FALSE(read_exr_bytes(patched(good, channels, 4 + 2 + 8, rate))) << rate;
     const auto large = read_exr_bytes(patched(patched(good, window, 12, 16383), window, 16, 16383));
     EXPECT_FALSE(large);
 }

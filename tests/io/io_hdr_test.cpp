@@ -151,7 +151,8 @@ TEST(ReadHdr, DamagedVariablesAreErrors) {
     for (const char* line :
          {"EXPOSURE=0", "EXPOSURE=-1", "EXPOSURE=nan", "EXPOSURE=x", "EXPOSURE=1e300", "COLORCORR=1 2",
           "PRIMARIES=1 2 3", "PRIMARIES=.64 .33 .3 .6 .15 .06 0 0", "FORMAT=32-bit_rle_cmyk"}) {
-        const auto loaded = read_hdr_bytes(make_hdr(test_texels(8, 4), {Scheme::flat, "-Y +X", std::string(line) + "\n"}));
+        const auto loaded =
+            read_hdr_bytes(make_hdr(test_texels(8, 4), {Scheme::flat, "-Y +X", std::string(line) + "\n"}));
         EXPECT_NE(message_of(loaded).find("at byte 11"), std::string::npos) << line << ": " << message_of(loaded);
     }
 }

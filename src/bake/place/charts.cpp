@@ -37,20 +37,7 @@ Key key_of(const World& world, std::uint32_t object, std::uint32_t vertex) {
     return {object, bits(p.x), bits(p.y), bits(p.z), bits(uv.x), bits(uv.y)};
 }
 
-<<<<<<< HEAD
-/// Finds the first vertex that had the same key. Open addressing: a table of at least twice as many places.
-=======
-std::uint64_t hash(const Key& key) {
-    std::uint64_t h = 0x9e3779b97f4a7c15u;
-    for (const std::uint32_t word : key) {
-        h = (h ^ word) * 0xff51afd7ed558ccdu;
-        h ^= h >> 32;
-    }
-    return h;
-}
-
 /// Finds the first vertex with the same key. Open addressing: a table of at least twice as many entries.
->>>>>>> english
 class Welder {
   public:
     explicit Welder(std::size_t vertices) : keys_(vertices), table_(std::bit_ceil(2 * vertices + 2), k_free) {}

@@ -17,20 +17,7 @@ constexpr std::uint32_t k_no_vertex = 0xffffffff;
 
 using Cell = std::array<std::int64_t, 3>;
 
-<<<<<<< HEAD
-/// Welded vertices by the cell that they lie in: chains in a table of hashes.
-=======
-std::uint64_t hash(const Cell& cell) {
-    std::uint64_t h = 0x9e3779b97f4a7c15u;
-    for (const std::int64_t i : cell) {
-        h = (h ^ static_cast<std::uint64_t>(i)) * 0xff51afd7ed558ccdu;
-        h ^= h >> 32;
-    }
-    return h;
-}
-
 /// Welded vertices by cell: chains in a hash table.
->>>>>>> english
 class Grid {
   public:
     /// Makes cells twice as wide as the tolerance, so that all near vertices lie in eight cells.
@@ -72,13 +59,8 @@ std::vector<std::uint32_t> weld_positions(const World& world, float tolerance) {
     std::vector<std::uint32_t> welded(count);
     for (std::uint32_t v = 0; v < count; ++v) {
         const Vec3 p = world.positions[v];
-<<<<<<< HEAD
-        // Look into the eight cells that a cube of twice the tolerance may touch.
-        std::uint32_t found = k_no_vertex;
-=======
         // Search the eight cells that a cube of twice the tolerance may touch.
-        std::uint32_t found = k_nobody;
->>>>>>> english
+        std::uint32_t found = k_no_vertex;
         for (std::int64_t corner = 0; corner < 8; ++corner) {
             const Cell shift{(corner & 1) * 2 - 1, (corner >> 1 & 1) * 2 - 1, (corner >> 2) * 2 - 1};
             for (std::uint32_t u = grid.chain(p, shift); u != k_no_vertex; u = grid.next(u))

@@ -20,13 +20,8 @@ constexpr std::size_t k_first_look = 4, k_second_look = 8;
 constexpr float k_first_reach = 1.5f;
 /// Maximum push-out steps; nested objects need several. Points still inside afterwards stay buried.
 constexpr int k_most_steps = 3;
-<<<<<<< HEAD
-/// Texels looked at at a time.
-constexpr std::size_t k_texels_at_once = 64;
-=======
 /// Texels processed at a time.
-constexpr std::size_t k_batch = 64;
->>>>>>> english
+constexpr std::size_t k_texels_at_once = 64;
 
 /// Returns a unit tangent vector; `turn` from 0 to 1 rotates it once around the normal.
 Vec3 along_surface(Vec3 normal, float turn) {

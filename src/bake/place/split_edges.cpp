@@ -59,9 +59,7 @@ class VertexGrid {
     [[nodiscard]] std::int64_t cell(double x) const {
         return static_cast<std::int64_t>(std::clamp(std::floor(x / width_), -0x1p52, 0x1p52));
     }
-    static std::uint64_t key(std::int64_t x, std::int64_t y, std::int64_t z) {
-        return hash_of(std::array{x, y, z});
-    }
+    static std::uint64_t key(std::int64_t x, std::int64_t y, std::int64_t z) { return hash_of(std::array{x, y, z}); }
     template <class Visit>
     bool visit_cell(std::uint64_t of_cell, const Visit& visit) const {
         for (auto at = std::lower_bound(entries_.begin(), entries_.end(), Entry{of_cell, 0});

@@ -69,7 +69,8 @@ void for_each_owned(const Atlas& atlas, std::size_t tile, const Visit& visit) {
     const TexelBox box = atlas.box_of_tile(tile);
     for (int y = box.y0; y < box.y1; ++y)
         for (int x = box.x0; x < box.x1; ++x)
-            if (const std::uint32_t owner = owners.owner[index_in(box, x, y)]; owner != k_no_triangle) visit(x, y, owner);
+            if (const std::uint32_t owner = owners.owner[index_in(box, x, y)]; owner != k_no_triangle)
+                visit(x, y, owner);
 }
 
 }  // namespace

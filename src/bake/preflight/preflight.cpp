@@ -37,7 +37,8 @@ void find_overlaps(const Atlas& atlas, Preflight& result) {
             for (int y = part.y0; y < part.y1; ++y)
                 for (int x = part.x0; x < part.x1; ++x) {
                     TexelMark& mark = marks[static_cast<std::size_t>(y) * atlas.width() + static_cast<std::size_t>(x)];
-                    if (mark == TexelMark::overlap || !triangle.contains({x + k_beside_x, y + k_beside_y}, k_margin)) continue;
+                    if (mark == TexelMark::overlap || !triangle.contains({x + k_beside_x, y + k_beside_y}, k_margin))
+                        continue;
                     std::uint32_t& other = first[static_cast<std::size_t>(y - box.y0) * k_tile + (x - box.x0)];
                     if (other != k_no_object) {
                         mark = TexelMark::overlap;

@@ -11,12 +11,6 @@ namespace {
 
 constexpr auto k_uniform_pdf = static_cast<float>(1 / (4 * k_pi));
 
-<<<<<<< HEAD
-=======
-/// Returns luminance, clamped to 0 from below.
-float brightness(Rgb radiance) { return std::max(0.0f, luminance(radiance)); }
-
->>>>>>> english
 }  // namespace
 
 EnvironmentLight::EnvironmentLight(const Image& image, Choice choice) : image_(&image), choice_(choice) {

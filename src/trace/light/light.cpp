@@ -9,7 +9,6 @@
 namespace lobelia {
 namespace {
 
-
 /// Maps a point uniformly to the spherical cap about z whose rim has cosine 1 - flatness; accurate for the smallest
 /// discs.
 Vec3 cap_direction(float flatness, Pair point) {
