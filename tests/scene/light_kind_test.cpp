@@ -55,7 +55,9 @@ TEST(EveryLightKind, RoundTripsThroughGltf) {
         };
         const PunctualLight light = test::some_light(kind), once = round_trip(light);
         EXPECT_EQ(once.kind, kind);
-        if (light_kind(kind).place == LightPlace::near) EXPECT_EQ(once.position, light.position);
+        if (light_kind(kind).place == LightPlace::near) {
+            EXPECT_EQ(once.position, light.position);
+        }
         if (light_kind(kind).aim == LightAim::along_direction) test::expect_near(once.direction, light.direction);
         for (int i = -100; i <= 100; ++i)
             EXPECT_EQ(fraction(once, 0.01f * static_cast<float>(i)), fraction(light, 0.01f * static_cast<float>(i)));

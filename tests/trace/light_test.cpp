@@ -123,7 +123,9 @@ TEST(EveryLightKind, ReachesPointsWithItsProfile) {
             const float fraction = profile != nullptr ? profile(light, -dot(towards, light.direction)) : 1;
             const float expected = light.intensity.g * fraction / (near ? dot(to, to) : 1);
             EXPECT_NEAR(s.irradiance.g, expected, 1e-5f * expected + 1e-9f);
-            if (expected > 0) EXPECT_NEAR(dot(s.direction, towards), 1, 1e-6f);
+            if (expected > 0) {
+                EXPECT_NEAR(dot(s.direction, towards), 1, 1e-6f);
+            }
         }
     }
 }
