@@ -3,7 +3,6 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "scene/gltf/document.h"
 #include "scene/light/light_kind.h"
 
 namespace lobelia::lights {
@@ -23,8 +22,11 @@ void read_cone(const JsonPlace& source, PunctualLight& light) {
     light.outer_angle = static_cast<float>(0.25 * k_pi);
     const auto spot = source.find("spot");
     if (!spot) return;
-    const double inner = gltf::number_or(*spot, "innerConeAngle", 0);
-    const double outer = gltf::number_or(*spot, "outerConeAngle", 0.25 * k_pi);
+    const auto angle = [&](const char* name, double otherwise) {
+        const auto found = spot->find(name);
+        return found ? found->number() : otherwise;
+    };
+    const double inner = angle("innerConeAngle", 0), outer = angle("outerConeAngle", 0.25 * k_pi);
     if (!(inner >= 0 && outer > 0 && inner <= outer * (1 + k_rounding) && outer <= 0.5 * k_pi * (1 + k_rounding)))
         spot->refuse("0 <= innerConeAngle <= outerConeAngle <= pi / 2 does not hold");
     light.outer_angle = static_cast<float>(std::min(outer, 0.5 * k_pi));
