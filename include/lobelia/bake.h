@@ -39,10 +39,10 @@ struct BakeStatistics {
     double codec_error = 0;      ///< RMS over texels of E by the codec minus E by the paths, over the mean of E
 };
 
-/// A KTX2 texture of one page.
+/// A texture of one page.
 struct TextureEntry {
     std::string storage;            ///< one of storages()
-    std::string file;               ///< .ktx2, in the bake's folder
+    std::string file;               ///< in the bake's folder; its container is the extension
     TextureLayout::Texture layout;  ///< contents of its channels
     float scale = 1;                ///< multiply stored values by this first
 };
@@ -51,7 +51,7 @@ struct TextureEntry {
 struct PageEntry {
     std::string file;                     ///< .exr
     std::vector<TextureEntry> textures;   ///< sorted by storage
-    std::optional<std::string> validity;  ///< .ktx2, where there are textures
+    std::optional<std::string> validity;  ///< likewise, where there are textures
 };
 
 /// An object of the scene and its place; in the scene's order, those without lightmap UVs included.
@@ -135,6 +135,7 @@ struct BakeSession {
 struct WriteBakeOptions {
     std::optional<std::vector<std::string>> storages = {};  ///< of the textures; absent: default_storages()
     const Scene* scene = nullptr;                           ///< also write a copy of the scene and its environment
+    std::string container = "ktx2";                         ///< file format of the textures
 };
 
 /// Writes a folder: pages, textures, probes, at last bake.json; returns the manifest with the files' names. Every file

@@ -79,9 +79,18 @@ struct Object {
     Transform world_from_object;
 };
 
+/// THE list of kinds of lights. To add one, write src/scene/light/NAME.cpp, which defines `lights::NAME`, and put the
+/// name here, at the end.
+#define LOBELIA_LIGHT_KINDS(kind) kind(point) kind(spot) kind(directional)
+
 /// A light without a surface (KHR_lights_punctual).
 struct PunctualLight {
-    enum class Kind { point, spot, directional };
+    /// point, spot and so on: an enumerator for each name of the list.
+    enum class Kind {
+#define LOBELIA_ENUMERATOR(name) name,
+        LOBELIA_LIGHT_KINDS(LOBELIA_ENUMERATOR)
+#undef LOBELIA_ENUMERATOR
+    };
     std::string name;
     Kind kind = Kind::point;
     Rgb intensity;          ///< point, spot: radiant intensity [W/sr]; directional: irradiance across the beam [W/m^2]

@@ -37,10 +37,15 @@ void warn(Bake& bake, const BakeSession& session, const std::string& text) {
     if (session.warn) session.warn(text);
 }
 
+Status check_textures(const BakeJob& job) {
+    const auto textures = PageTextures::make(job.bake.codec, job.storages, job.container);
+    return textures ? Status(Done{}) : textures.error();
+}
+
 /// Lays out pages, texels and probes; checks everything that is cheap to refuse, and warns.
 Result<BakeWork> place(const Scene& scene, const BakeJob& job, const BakeSession& session) {
     if (const auto valid = check(job); !valid) return valid.error();
-    if (const auto textures = PageTextures::make(job.bake.codec, job.storages); !textures) return textures.error();
+    if (auto status = check_textures(job); !status) return status.error();
     auto setup = BakeSetup::make(scene, job.bake);
     if (!setup) return setup.error();
     BakeWork work{*std::move(setup), {}};
@@ -155,7 +160,7 @@ Status add_probes(BakeWork& work, const BakeJob& job, const BakeSession& session
 
 Status write(BakeWork& work, const BakeJob& job, const BakeSession& session) {
     if (session.folder.empty()) return Done{};
-    auto manifest = write_bake(session.folder, work.bake, {job.storages, work.setup->scene});
+    auto manifest = write_bake(session.folder, work.bake, {job.storages, work.setup->scene, job.container});
     if (!manifest) return manifest.error();
     for (std::size_t i = work.bake.manifest.warnings.size(); i < manifest->warnings.size() && session.warn; ++i)
         session.warn(manifest->warnings[i]);
@@ -257,7 +262,7 @@ Result<Bake> rebake_object(const Scene& scene, const BakeJob& job, std::string_v
 Result<Preflight> preflight(const Scene& scene, const BakeJob& job) {
     return with_threads(job, [&]() -> Result<Preflight> {
         if (const auto valid = check(job); !valid) return valid.error();
-        if (const auto textures = PageTextures::make(job.bake.codec, job.storages); !textures) return textures.error();
+        if (auto status = check_textures(job); !status) return status.error();
         const auto setup = BakeSetup::make(scene, job.bake);
         if (!setup) return setup.error();
         return preflight(**setup, measure_rate((*setup)->atlas, (*setup)->map, *(*setup)->tracer));

@@ -5,6 +5,7 @@
 #include "cli/lobe_files.h"
 #include "cli/options.h"
 #include "cli/scene_input.h"
+#include "io/texture/container.h"
 
 namespace lobelia::cli {
 namespace {
@@ -120,15 +121,22 @@ void add_session_options(CLI::App& command, BakeArguments& a) {
                  "tiles: the merged bake has the same bits as a whole one; samples: up to rounding");
 }
 
+std::vector<std::string> container_names() {
+    std::vector<std::string> names;
+    for (const TextureContainer& container : texture_containers()) names.emplace_back(container.name);
+    return names;
+}
+
 void add_output_options(CLI::App& command, BakeArguments& a) {
     Group group(command, "Output");
     group.option("-o,--out", a.out, "Output folder")->required();
     group.choice("--precision", a.precision, {"half", "float"}, "Format of the EXR pages");
     group
         .option("--storage", a.storages,
-                "Write KTX2 textures in this storage, see lobelia list --storages; repeatable; none: no textures "
+                "Write textures in this storage, see lobelia list --storages; repeatable; none: no textures "
                 "(default: float16, and ratio8 where it is usable)")
         ->allow_extra_args(false);
+    group.choice("--container", a.job.container, container_names(), "File format of the textures");
     group.flag("--no-report,--no-page", a.no_report, "Do not make the HTML report");
     group.with_default("--picture-size", a.picture_size, "Size of the report's pictures, WxH");
     group.with_default("--picture-samples", a.job.report.samples, "Samples per pixel of the report's pictures")

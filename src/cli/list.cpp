@@ -7,9 +7,11 @@
 #include "cli/options.h"
 #include "cli/verbs.h"
 #include "core/storage/layout_text.h"
+#include "io/texture/container.h"
 #include "lobelia/codec.h"
 #include "lobelia/storage.h"
 #include "measure/bases_document.h"
+#include "scene/light/light_kind.h"
 
 namespace lobelia::cli {
 namespace {
@@ -77,6 +79,13 @@ void print_axes() {
     print_specular();
     fmt::print("storages\n");
     for (const Storage& storage : storages()) fmt::print("  {:<20} {}\n", storage.name, storage.description);
+    fmt::print("pixel formats of storages\n");
+    for (const PixelFormat format : pixel_formats()) fmt::print("  {}\n", info(format).name);
+    fmt::print("texture containers\n");
+    for (const TextureContainer& container : texture_containers())
+        fmt::print("  {:<20} {}\n", container.name, container.description);
+    fmt::print("lights of scenes, besides emissive surfaces and the environment\n");
+    for (const PunctualLight::Kind kind : light_kinds()) fmt::print("  {}\n", light_kind(kind).name);
     fmt::print("A codec is one of each, basis/encoder/evaluator; lobelia list prints the {} useful combinations.\n",
                all_codecs().size());
 }
@@ -121,8 +130,8 @@ Status print_layouts(const std::string& name, Output output) {
 Verb add_list(CLI::App& app) {
     CLI::App* command = app.add_subcommand("list", "List codecs, or their parts");
     auto options = std::make_shared<ListArguments>();
-    CLI::Option* axes =
-        command->add_flag("--axes", options->axes, "List bases, encoders, evaluators and storages with descriptions");
+    CLI::Option* axes = command->add_flag(
+        "--axes", options->axes, "List bases, encoders, evaluators, storages and the other lists");
     command->add_flag("--markdown", options->markdown, "Write docs/bases.md to standard output")->excludes(axes);
     auto* layouts =
         command->add_option("--storages", options->storages,

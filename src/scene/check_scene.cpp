@@ -5,6 +5,8 @@
 
 #include <span>
 
+#include "scene/light/light_kind.h"
+
 namespace lobelia {
 namespace {
 
@@ -96,11 +98,11 @@ Status check_material(const Scene& scene, const Material& m, const std::string& 
 Status check_light(const PunctualLight& light, const std::string& place) {
     if (!is_light(light.intensity)) return wrong("negative or above 1e15", "{}.intensity", place);
     if (!finite(light.position)) return wrong("not finite", "{}.position", place);
-    if (light.kind != PunctualLight::Kind::point && !is_unit(light.direction))
+    const LightKind& kind = light_kind(light.kind);
+    if (kind.aim == LightAim::along_direction && !is_unit(light.direction))
         return wrong("not of length 1", "{}.direction", place);
-    if (light.kind == PunctualLight::Kind::spot && !(light.inner_angle >= 0 && light.inner_angle <= light.outer_angle &&
-                                                     light.outer_angle > 0 && light.outer_angle <= 1.5708f))
-        return wrong("0 <= inner_angle <= outer_angle, 0 < outer_angle <= pi / 2 does not hold", "{}", place);
+    const std::string_view problem = kind.problem != nullptr ? kind.problem(light) : "";
+    if (!problem.empty()) return wrong(problem, "{}", place);
     if (!(light.angular_radius >= 0 && light.angular_radius < 1.5708f))
         return wrong("not in [0, pi / 2)", "{}.angular_radius", place);
     if (!finite(light.range) || light.range < 0) return wrong("negative or not finite", "{}.range", place);

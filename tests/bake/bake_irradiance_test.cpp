@@ -10,6 +10,7 @@
 #include "bake_files.h"
 #include "folders.h"
 #include "io/read_exr_channels.h"
+#include "io/texture/container.h"
 #include "lobelia/storage.h"
 
 namespace lobelia {
@@ -203,6 +204,25 @@ TEST(BakeTextures, HalvesRatiosAndValidityWhereNothingIsAskedFor) {
     const PackedTexture validity = texture_in(folder.path() / "page-1.validity.ktx2", PixelFormat::r8);
     for (std::size_t i = 0; i < bake.pages[1].size(); ++i)
         EXPECT_NEAR(static_cast<float>(validity.data[i]) / 255, bake.pages[1].validity[i], 0.501f / 255);
+}
+
+TEST(BakeTextures, EveryContainerIsTheExtensionOfItsFiles) {
+    const Bake bake = some_bake("sh1/moments/convolution");
+    for (const TextureContainer& container : texture_containers()) {
+        const test::TestFolder folder("bake-containers");
+        const std::string name(container.name);
+        ASSERT_TRUE(write_bake(folder.path(), bake, {.storages = {{"float16"}}, .container = name}));
+        const auto manifest = read_manifest(folder.path());
+        ASSERT_TRUE(manifest) << manifest.error().message;
+        EXPECT_EQ(manifest->pages[0].validity, "page-0.validity." + name);
+        EXPECT_EQ(manifest->pages[0].textures[0].file, "page-0.float16.v0." + name);
+        EXPECT_TRUE(fs::exists(folder.path() / manifest->pages[0].textures[0].file));
+    }
+    const test::TestFolder folder("bake-containers");
+    const auto refused = write_bake(folder.path() / "none", bake, {.container = "zip"});
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().message, find_texture_container("zip").error().message);
+    EXPECT_EQ(folder.entries(), 0u);
 }
 
 TEST(BakeTextures, OnlyThoseAskedFor) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/sample/directions.h"
+#include "scene/light/light_kind.h"
 #include "small_scenes.h"
 #include "support.h"
 
@@ -103,6 +104,30 @@ Scene many_lights() {
     }
     scene.environment = test::constant_sky({0.1f, 0.1f, 0.1f});
     return scene;
+}
+
+TEST(EveryLightKind, ReachesPointsWithItsProfile) {
+    for (const auto kind : light_kinds()) {
+        SCOPED_TRACE(light_kind(kind).name);
+        Scene scene;
+        const PunctualLight light = test::some_light(kind);
+        scene.lights = {light};
+        const World world = make_world(scene);
+        const Surfaces surfaces(scene, world);
+        const Lights lights(scene, surfaces, {});
+        for (const Vec3 to : {light.direction * -2.0f, Vec3{0.5f, 1, 0}, Vec3{3, 1, 0}, Vec3{0, -1, 0.5f}}) {
+            const bool near = light_kind(kind).place == LightPlace::near;
+            const LightSample s = lights.sample({light.position - to, {}}, 0.5f, {0.5f, 0.5f});
+            const Vec3 towards = near ? normalize(to) : light.direction * -1.0f;
+            const auto profile = light_kind(kind).profile;
+            const float fraction = profile != nullptr ? profile(light, -dot(towards, light.direction)) : 1;
+            const float expected = light.intensity.g * fraction / (near ? dot(to, to) : 1);
+            EXPECT_NEAR(s.irradiance.g, expected, 1e-5f * expected + 1e-9f);
+            if (expected > 0) {
+                EXPECT_NEAR(dot(s.direction, towards), 1, 1e-6f);
+            }
+        }
+    }
 }
 
 class ManyLights : public ::testing::Test {

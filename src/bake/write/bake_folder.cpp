@@ -99,7 +99,7 @@ Status add_scene(FilesTogether& files, const Scene& scene, Manifest& manifest) {
 
 Result<Manifest> write_bake(const fs::path& folder, const Bake& bake, const WriteBakeOptions& options) {
     assert(bake.pages.size() == bake.normals.size());
-    const auto textures = PageTextures::make(bake.manifest.options.codec, options.storages);
+    const auto textures = PageTextures::make(bake.manifest.options.codec, options.storages, options.container);
     if (!textures) return textures.error();
     auto files = FilesTogether::in(folder);
     if (!files) return files.error();

@@ -87,6 +87,7 @@ void fields(auto& archive, BakeJob& job) {
     archive.group("probes", job.probes);
     archive.choice("precision", job.precision, k_precision_names);
     archive.texts("storages", job.storages);
+    archive.text("container", job.container);
     archive.group("report", job.report);
 }
 

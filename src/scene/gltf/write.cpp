@@ -12,6 +12,7 @@
 #include "lobelia/gltf.h"
 #include "scene/gltf/document.h"
 #include "scene/gltf/write_materials.h"
+#include "scene/light/light_kind.h"
 
 namespace lobelia {
 namespace gltf {
@@ -160,23 +161,21 @@ class Writer {
     void write_lights() {
         json lights;
         for (const PunctualLight& light : scene_.lights) {
-            constexpr std::array<const char*, 3> k_kinds{"point", "spot", "directional"};
+            const LightKind& kind = light_kind(light.kind);
             const double intensity = std::max({light.intensity.r, light.intensity.g, light.intensity.b});
             const auto part = [&](float x) { return intensity > 0 ? x / intensity : 1; };
-            json out = {{"type", k_kinds[static_cast<std::size_t>(light.kind)]},
+            json out = {{"type", kind.name},
                         {"intensity", intensity},
                         {"color", {part(light.intensity.r), part(light.intensity.g), part(light.intensity.b)}}};
             if (!light.name.empty()) out["name"] = light.name;
             if (light.range > 0) out["range"] = light.range;
-            if (light.kind == PunctualLight::Kind::spot)
-                out["spot"] = {{"innerConeAngle", light.inner_angle}, {"outerConeAngle", light.outer_angle}};
-            if (light.angular_radius > 0) out["extras"]["angular_radius"] = light.angular_radius;
+            if (kind.write != nullptr) kind.write(light, out);
             json node;
             node["extensions"]["KHR_lights_punctual"]["light"] = lights.size();
             lights.push_back(std::move(out));
             Transform place;
             place.translation = light.position;
-            if (light.kind != PunctualLight::Kind::point) place = looking_along(light.position, light.direction);
+            if (kind.aim == LightAim::along_direction) place = looking_along(light.position, light.direction);
             add_node(std::move(node), light.name, place);
         }
         if (lights.empty()) return;

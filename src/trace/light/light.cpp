@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/sample/directions.h"
+#include "scene/light/light_kind.h"
 
 namespace lobelia {
 namespace {
@@ -27,14 +28,6 @@ float range_window(float distance2, float range) {
     if (range <= 0) return 1;
     const float q = distance2 / (range * range);
     return std::clamp(1 - q * q, 0.0f, 1.0f);
-}
-
-/// Returns KHR_lights_punctual's spot attenuation at `cosine` to the spot's direction; equal angles make a hard edge.
-float spot_cone(const PunctualLight& light, float cosine) {
-    const float inner = std::cos(light.inner_angle), outer = std::cos(light.outer_angle);
-    if (!(inner > outer)) return cosine >= outer ? 1 : 0;
-    const float t = std::clamp((cosine - outer) / (inner - outer), 0.0f, 1.0f);
-    return t * t;
 }
 
 }  // namespace
@@ -90,7 +83,8 @@ LightSample Lights::sample_punctual(const PunctualLight& light, float probabilit
     if (distance2 < std::numeric_limits<float>::min()) return {};
     const Vec3 direction = to * (1 / distance);
     float factor = range_window(distance2, light.range) / (distance2 * probability);
-    if (light.kind == PunctualLight::Kind::spot) factor *= spot_cone(light, -dot(direction, light.direction));
+    if (const auto profile = light_kind(light.kind).profile; profile != nullptr)
+        factor *= profile(light, -dot(direction, light.direction));
     return {direction, distance, light.intensity * factor, 0};
 }
 

@@ -1,6 +1,7 @@
 // Collects the light sources of a scene and groups them.
 #include <cmath>
 
+#include "scene/light/light_kind.h"
 #include "trace/light/light.h"
 
 namespace lobelia {
@@ -48,7 +49,7 @@ void Lights::add_environment(const PathOptions& options) {
 void Lights::add_suns(const PathOptions& options) {
     std::vector<LightSource> suns;
     for (const PunctualLight& light : scene_->lights) {
-        if (light.kind != PunctualLight::Kind::directional || !(brightness(light.intensity) > 0)) continue;
+        if (light_kind(light.kind).place != LightPlace::far || !(brightness(light.intensity) > 0)) continue;
         const double radius = options.sun_size == Switch::on ? static_cast<double>(light.angular_radius) : 0;
         const double sine = std::sin(radius), half = std::sin(radius / 2);
         Sun sun{Axes(light.direction * -1.0f), light.intensity};
@@ -109,7 +110,7 @@ void Lights::add_near() {
     }
     for (std::uint32_t i = 0; i < scene_->lights.size(); ++i) {
         const PunctualLight& light = scene_->lights[i];
-        if (light.kind == PunctualLight::Kind::directional || !(brightness(light.intensity) > 0)) continue;
+        if (light_kind(light.kind).place == LightPlace::far || !(brightness(light.intensity) > 0)) continue;
         LightSource& source = sources.emplace_back();
         source.kind = Kind::punctual;
         source.index = i;
