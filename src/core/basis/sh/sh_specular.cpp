@@ -17,7 +17,7 @@ class ZonalSpecular final : public SpecularEvaluator {
     enum class Kind { prefiltered, convolution };
 
     ZonalSpecular(Kind kind, std::size_t degree) : kind_(kind), harmonics_(degree) {
-        assert(degree <= ggx::k_zonal_degree);
+        check_range("degree", degree, 0, ggx::k_zonal_degree);
     }
     [[nodiscard]] std::string name() const override {
         return kind_ == Kind::convolution ? "sh-convolution" : "sh-prefiltered";
@@ -27,7 +27,7 @@ class ZonalSpecular final : public SpecularEvaluator {
                 0.005};
     }
     void reflected(std::span<const Rgb> c, const SpecularPoints& points, MutableColourView out) const override {
-        assert(c.size() == harmonics_.size() && out.size == points.size());
+        check_specular(harmonics_.size(), c, points, out);
         std::vector<float> rows(harmonics_.size() * k_block_size);
         Directions directions(k_block_size);
         std::vector<Read> reads(k_block_size);
@@ -82,6 +82,7 @@ class DominantSpecular final : public SpecularEvaluator {
         return {"any alpha and view", "exact for constant light and for one lamp", Reading::of_its_own, 0.005};
     }
     void reflected(std::span<const Rgb> c, const SpecularPoints& points, MutableColourView out) const override {
+        check_specular(4, c, points, out);
         const Light light = split(c);
         for (std::size_t i = 0; i < points.size(); ++i) {
             ggx::View view = glossy_view(points, i);
