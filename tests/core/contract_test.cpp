@@ -118,8 +118,7 @@ TEST(EverySpecularEvaluator, RefusesArraysOfAnotherSize) {
         for (const std::string& name : specular_names(*basis)) {
             SCOPED_TRACE(name);
             const auto evaluator = make_specular(name, basis).value();
-            // One evaluator of harmonics reads degree 1 alone.
-            const std::size_t size = name == "sh-dominant" ? 4 : basis->size();
+            const std::size_t size = basis->size();
             const std::vector<Rgb> c(size);
             EXPECT_VIOLATES("coefficients" + both(size - 1, size),
                             evaluator->reflected(std::span(c).first(size - 1), points, out));

@@ -63,13 +63,6 @@ std::uint64_t hilbert_index(std::uint32_t side, std::uint32_t x, std::uint32_t y
     return index;
 }
 
-void check_grid(LatLong grid, SourcePlace place = SourcePlace::here()) {
-    if (grid.size() == 0) [[unlikely]]
-        contract_violated("grid of texels: " + std::to_string(grid.width) + " x " + std::to_string(grid.height) +
-                              ", must be at least 1 x 1",
-                          place);
-}
-
 void check_pixels(const Image& image, SourcePlace place = SourcePlace::here()) {
     check_equal("pixels of an image", image.pixels.size(), image.width * image.height, place);
 }

@@ -201,6 +201,7 @@ void add_sun(Image& image, const SunDisc& sun) {
 }  // namespace
 
 Image sky(LatLong grid, const SkyOptions& options) {
+    check_grid(grid);
     const Sky radiance(options);
     Image image(grid.width, grid.height);
     for (std::size_t i = 0; i < grid.size(); ++i) image.pixels[i] = radiance(grid.direction(i));

@@ -77,12 +77,13 @@ class ZonalSpecular final : public SpecularEvaluator {
 /// Degree 1 as ambient light and a lamp.
 class DominantSpecular final : public SpecularEvaluator {
   public:
+    explicit DominantSpecular(std::size_t degree) : coefficients_(harmonics::coefficient_count(degree)) {}
     [[nodiscard]] std::string name() const override { return "sh-dominant"; }
     [[nodiscard]] Accuracy accuracy() const override {
         return {"any alpha and view", "exact for constant light and for one lamp", Reading::of_its_own, 0.005};
     }
     void reflected(std::span<const Rgb> c, const SpecularPoints& points, MutableColourView out) const override {
-        check_specular(4, c, points, out);
+        check_specular(coefficients_, c, points, out);
         const Light light = split(c);
         for (std::size_t i = 0; i < points.size(); ++i) {
             ggx::View view = glossy_view(points, i);
@@ -120,6 +121,8 @@ class DominantSpecular final : public SpecularEvaluator {
         light.ambient = (sum - light.lamp) * (1 / (4 * static_cast<float>(k_pi)));
         return light;
     }
+
+    std::size_t coefficients_;
 };
 
 }  // namespace
@@ -127,7 +130,7 @@ class DominantSpecular final : public SpecularEvaluator {
 std::vector<std::string> sh_specular_names() { return {"sh-dominant", "sh-prefiltered", "sh-convolution"}; }
 
 std::shared_ptr<const SpecularEvaluator> sh_specular(std::string_view name, std::size_t degree) {
-    if (name == "sh-dominant") return std::make_shared<DominantSpecular>();
+    if (name == "sh-dominant") return std::make_shared<DominantSpecular>(degree);
     if (name == "sh-prefiltered") return std::make_shared<ZonalSpecular>(ZonalSpecular::Kind::prefiltered, degree);
     if (name == "sh-convolution") return std::make_shared<ZonalSpecular>(ZonalSpecular::Kind::convolution, degree);
     return nullptr;
