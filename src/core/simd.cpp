@@ -14,6 +14,12 @@ std::int64_t current() {
     return usable & -usable;
 }
 
+/// Those that the machine and the build have, as they were before any was chosen.
+const std::vector<std::int64_t>& all_targets() {
+    static const std::vector<std::int64_t> once = hwy::SupportedAndGeneratedTargets();
+    return once;
+}
+
 std::string listed(const std::vector<std::string>& names) {
     std::string text;
     for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
@@ -24,16 +30,14 @@ std::string listed(const std::vector<std::string>& names) {
 
 std::vector<std::string> simd_targets() {
     std::vector<std::string> names;
-    for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) names.emplace_back(hwy::TargetName(target));
+    for (const std::int64_t target : all_targets()) names.emplace_back(hwy::TargetName(target));
     return names;
 }
 
 std::string_view simd_target() { return hwy::TargetName(current()); }
 
 Status use_simd_target(std::string_view name) {
-    // Allow every target again, so that the choice does not depend on an earlier one.
-    hwy::DisableTargets(0);
-    for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+    for (const std::int64_t target : all_targets()) {
         if (hwy::TargetName(target) != name) continue;
         hwy::DisableTargets(~target);
         return Done{};
