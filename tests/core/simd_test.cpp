@@ -100,7 +100,7 @@ TEST(SimdTargets, ResultsDifferByRoundingOnly) {
                 largest = std::max(largest, std::abs(b));
                 difference = std::max(difference, std::abs(a - b));
             }
-            EXPECT_LE(difference, 4e-6f * largest) << name << " " << here[i].name;
+            EXPECT_LE(difference, 1e-6f * largest) << name << " " << here[i].name;
         }
     }
 }
