@@ -6,6 +6,7 @@
 #include "bake/write/probe_files.h"
 #include "bake_files.h"
 #include "gltf_files.h"
+#include "hostile_numbers.h"
 #include "io/write_file.h"
 #include "io/write_image.h"
 #include "io_files.h"
@@ -133,6 +134,23 @@ bool write_bake_seeds(const std::filesystem::path& folder) {
            write(folder, "probes", to_json_text(*world.probes, "probes.bin"));
 }
 
+/// Each call of fuzz_api with tame and with hostile numbers.
+bool write_api_seeds(const std::filesystem::path& folder) {
+    bool done = true;
+    std::vector<float> tame(64);
+    for (std::size_t i = 0; i < tame.size(); ++i) tame[i] = 0.1f + 0.01f * static_cast<float>(i);
+    for (unsigned char what = 0; what < 6; ++what)
+        for (const unsigned char which : {0, 7, 14, 21, 28, 35, 255})
+            for (const std::span<const float> numbers : {std::span<const float>(tame), {test::k_hostile_numbers}}) {
+                std::string bytes = {static_cast<char>(what), static_cast<char>(which), static_cast<char>(which / 3)};
+                bytes.append(reinterpret_cast<const char*>(numbers.data()), numbers.size_bytes());
+                done &= write(folder,
+                              std::to_string(what) + "-" + std::to_string(which) + "-" + std::to_string(numbers.size()),
+                              bytes);
+            }
+    return done;
+}
+
 }  // namespace
 
 int main(int count, char** arguments) {
@@ -141,9 +159,10 @@ int main(int count, char** arguments) {
         return 2;
     }
     const std::filesystem::path folder = arguments[1];
-    for (const char* kind : {"hdr", "exr", "ldr", "gltf", "bake"}) std::filesystem::create_directories(folder / kind);
+    for (const char* kind : {"hdr", "exr", "ldr", "gltf", "bake", "api"})
+        std::filesystem::create_directories(folder / kind);
     const bool done = write_hdr_seeds(folder / "hdr") && write_exr_seeds(folder / "exr") &&
                       write_ldr_seeds(folder / "ldr") && write_gltf_seeds(folder / "gltf") &&
-                      write_bake_seeds(folder / "bake");
+                      write_bake_seeds(folder / "bake") && write_api_seeds(folder / "api");
     return done ? 0 : 1;
 }

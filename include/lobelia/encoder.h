@@ -34,6 +34,14 @@ class Encoder {
     [[nodiscard]] virtual const Encoder& accumulating() const { return *this; }
     /// Solves for the coefficients; all zeros if no sample was added. Precondition: `c` has basis().size() entries.
     virtual void solve(std::span<const float> state, std::span<Rgb> c) const = 0;
+    /// Whether states of `other` mean the same as those of this: the same kind of encoder of the same functions.
+    [[nodiscard]] bool has_states_of(const Encoder& other) const;
+
+  protected:
+    /// Checks that a span is a state of this encoder.
+    void check_state(std::span<const float> state, SourcePlace place = SourcePlace::here()) const {
+        check_equal("floats of the state", state.size(), state_size(), place);
+    }
 
   private:
     std::shared_ptr<const Basis> basis_;
@@ -61,7 +69,8 @@ class Accumulator {
 
     void add(SampleView samples) { encoder_->add(state_, samples); }
     void add_sources(SampleView sources) { encoder_->add_sources(state_, sources); }
-    void merge(const Accumulator& other) { encoder_->merge(state_, other.state_); }
+    /// Adds what `other` has seen, an accumulator of the same encoder or of one that is equal (has_states_of).
+    void merge(const Accumulator& other);
     [[nodiscard]] std::vector<Rgb> solve() const {
         std::vector<Rgb> c(encoder_->basis().size());
         encoder_->solve(state_, c);

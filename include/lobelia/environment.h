@@ -39,6 +39,14 @@ struct LatLong {
     friend bool operator==(const LatLong&, const LatLong&) = default;
 };
 
+/// Checks that a grid has at least one texel.
+inline void check_grid(LatLong grid, SourcePlace place = SourcePlace::here()) {
+    if (grid.size() == 0) [[unlikely]]
+        contract_violated("grid of texels: " + std::to_string(grid.width) + " x " + std::to_string(grid.height) +
+                              ", must be at least 1 x 1",
+                          place);
+}
+
 [[nodiscard]] inline LatLong lat_long(const Image& image) { return {image.width, image.height}; }
 
 /// Rotates the world to the frame of a domain. The sphere uses the world's axes, y up; the hemisphere is the tangent

@@ -28,6 +28,13 @@ class FunctionSet {
     virtual void values_at(Vec3 direction, float* values) const;
 };
 
+/// Checks the arrays of an evaluation: the coefficients required, and a colour for each direction.
+inline void check_evaluation(std::size_t required, std::span<const Rgb> c, const DirectionView& directions,
+                             const MutableColourView& out, SourcePlace place = SourcePlace::here()) {
+    check_equal("coefficients", c.size(), required, place);
+    check_equal("colours for the directions", out.size, directions.size, place);
+}
+
 /// Computes out_j = sum_i c_i f_i(direction j): radiance for a linear basis, irradiance for a linear evaluator.
 void evaluate(const FunctionSet& functions, std::span<const Rgb> c, DirectionView directions, MutableColourView out);
 /// Evaluates one direction.

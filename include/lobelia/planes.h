@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <cstddef>
 #include <vector>
 
+#include "lobelia/contract.h"
 #include "lobelia/math.h"
 
 namespace lobelia {
@@ -27,7 +27,7 @@ struct PlanesView {
     [[nodiscard]] Float* channel(std::size_t i) const { return pointers[i]; }
     /// Returns entries [begin, begin + count).
     [[nodiscard]] PlanesView part(std::size_t begin, std::size_t count) const {
-        assert(begin + count <= size);
+        LOBELIA_ASSERT(begin + count <= size);
         PlanesView result{pointers, count};
         for (Float*& pointer : result.pointers) pointer += begin;
         return result;
@@ -36,7 +36,7 @@ struct PlanesView {
     template <std::size_t M>
     [[nodiscard]] PlanesView<M, Float> channels(std::size_t first) const {
         static_assert(M <= N);
-        assert(first + M <= N);
+        LOBELIA_ASSERT(first + M <= N);
         PlanesView<M, Float> result{{}, size};
         std::copy_n(pointers.begin() + static_cast<std::ptrdiff_t>(first), M, result.pointers.begin());
         return result;
@@ -90,14 +90,14 @@ using MutableColourView = Colours::MutableView;
 /// Returns entry i of three channels, as a vector or a colour.
 template <class Triple, class Float>
 [[nodiscard]] Triple entry(const PlanesView<3, Float>& view, std::size_t i) {
-    assert(i < view.size);
+    LOBELIA_ASSERT_BELOW("index of an entry", i, view.size);
     return {view.channel(0)[i], view.channel(1)[i], view.channel(2)[i]};
 }
 [[nodiscard]] inline Vec3 direction_at(const DirectionView& view, std::size_t i) { return entry<Vec3>(view, i); }
 [[nodiscard]] inline Rgb colour_at(const ColourView& view, std::size_t i) { return entry<Rgb>(view, i); }
 
 inline void set_entry(const PlanesView<3, float>& view, std::size_t i, Vec3 v) {
-    assert(i < view.size);
+    LOBELIA_ASSERT_BELOW("index of an entry", i, view.size);
     view.channel(0)[i] = v.x;
     view.channel(1)[i] = v.y;
     view.channel(2)[i] = v.z;

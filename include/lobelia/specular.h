@@ -15,6 +15,15 @@ struct SpecularPoints {
     [[nodiscard]] std::size_t size() const { return normals.size; }
 };
 
+/// Checks the arrays of an evaluation: the coefficients required, and a view, an alpha and a colour for each normal.
+inline void check_specular(std::size_t required, std::span<const Rgb> c, const SpecularPoints& points,
+                           const MutableColourView& out, SourcePlace place = SourcePlace::here()) {
+    check_equal("coefficients", c.size(), required, place);
+    check_equal("views for the normals", points.views.size, points.size(), place);
+    check_equal("alphas for the normals", points.alphas.size(), points.size(), place);
+    check_equal("colours for the normals", out.size, points.size(), place);
+}
+
 /// Evaluates coefficients as reflected radiance L(v) [W/(m^2 sr)], the integral over the hemisphere about n of
 ///
 ///   L(l) D(h) G(v, l) / (4 (n.v) (n.l)) (n.l),      h = (v + l) / |v + l|.

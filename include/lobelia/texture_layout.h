@@ -58,7 +58,7 @@ struct BasicCoefficientPlanes {
     template <class Plane>
     BasicCoefficientPlanes(std::size_t w, std::size_t h, std::span<Plane> of, std::size_t coefficients)
         : width(w), height(h) {
-        assert(of.size() >= 3 * coefficients);
+        check_range("planes", of.size(), 3 * coefficients, of.size());
         for (std::size_t i = 0; i < 3 * coefficients; ++i) planes.push_back(of[i].data());
     }
     /// Converts writable planes to read-only ones.

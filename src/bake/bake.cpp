@@ -71,6 +71,7 @@ Status gather_and_solve(BakeWork& work, const BakeSession& session, const fs::pa
                                                              setup.encoding.page_channels().count()));
     RegionGatherer gatherer(setup, session, checkpoint);
     SolveTotals totals;
+    InstructionSets instruction_sets = 0;
     for (std::size_t number = 0; number < setup.plan.regions.size(); ++number) {
         const auto region = gatherer.gather(number);
         if (!region) return region.error();
@@ -78,12 +79,14 @@ Status gather_and_solve(BakeWork& work, const BakeSession& session, const fs::pa
                    {region->texels, region->receivers, region->states.states()}, setup.encoding,
                    setup.options.samples_per_pass, totals);
         const RegionHeader& header = region->states.header;
+        instruction_sets = joined(instruction_sets, header.instruction_sets);
         statistics.rays += header.rays;
         statistics.seconds += header.seconds;
         statistics.samples =
             std::max(statistics.samples, (header.end_pass - setup.plan.first_pass) * setup.options.samples_per_pass);
     }
     totals.finish(statistics);
+    if (are_several(instruction_sets)) warn(work.bake, session, several_sets_warning(instruction_sets));
     if (statistics.codec_error > k_useless_codec)
         warn(work.bake, session,
              fmt::format("codec irradiance error {:.0f} % RMS: encoder \"{}\" is unsuitable for this light; use "

@@ -118,7 +118,8 @@ void add_session_options(CLI::App& command, BakeArguments& a) {
                  "index as #3");
     group.option("--shard", a.shard, "Bake one part of several, such as 0/4; lobelia merge puts them together");
     group.choice("--shard-by", a.shard_by, {"tiles", "samples"},
-                 "tiles: the merged bake has the same bits as a whole one; samples: up to rounding");
+                 "tiles: the merged bake has the same bits as a whole one if all machines use one instruction set "
+                 "(LOBELIA_SIMD); samples: up to rounding");
 }
 
 std::vector<std::string> container_names() {

@@ -4,12 +4,14 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <system_error>
 
 #include <CLI/CLI.hpp>
 
 #include "cli/common.h"
 #include "cli/verbs.h"
+#include "lobelia/simd.h"
 
 namespace {
 
@@ -37,6 +39,20 @@ and measures how wrong each choice is.
 lobelia -h lists all verbs, lobelia VERB -h all options of a verb.
 )";
 
+std::string simd_names() {
+    std::string names;
+    for (const std::string& name : lobelia::simd_targets()) names += (names.empty() ? "" : ", ") + name;
+    return names;
+}
+
+/// Uses the instruction set that the environment variable LOBELIA_SIMD names, if it names one.
+lobelia::Status choose_simd_target() {
+    const char* name = std::getenv("LOBELIA_SIMD");
+    if (name == nullptr || *name == '\0') return lobelia::Done{};
+    auto status = lobelia::use_simd_target(name);
+    return status ? std::move(status) : lobelia::Error{"LOBELIA_SIMD: " + status.error().message};
+}
+
 /// Parses the command line and runs the verb.
 int run(CLI::App& app, const std::vector<lobelia::cli::Verb>& verbs, int argc, char** argv) {
     try {
@@ -44,6 +60,10 @@ int run(CLI::App& app, const std::vector<lobelia::cli::Verb>& verbs, int argc, c
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) return app.exit(error);
         lobelia::cli::complain(fmt::format("lobelia: {}\nRun with -h for the options.", error.what()));
+        return k_bad_input;
+    }
+    if (const auto status = choose_simd_target(); !status) {
+        lobelia::cli::complain("lobelia: " + status.error().message);
         return k_bad_input;
     }
     for (const auto& verb : verbs) {
@@ -66,7 +86,11 @@ int main(int argc, char** argv) {
     app.set_version_flag("--version", std::string("lobelia ") + LOBELIA_VERSION);
     app.require_subcommand(0, 1);
     app.get_formatter()->column_width(36);
-    app.footer("lobelia VERB -h lists the options of a verb; lobelia alone shows examples.");
+    app.footer(
+        "lobelia VERB -h lists the options of a verb; lobelia alone shows examples.\n"
+        "The environment variable LOBELIA_SIMD sets the instruction set, so that several machines compute the same "
+        "bits: " +
+        simd_names() + " on this one.");
     std::vector<lobelia::cli::Verb> verbs;
 #define LOBELIA_ADD_VERB(name) verbs.push_back(lobelia::cli::add_##name(app));
     LOBELIA_VERBS(LOBELIA_ADD_VERB)

@@ -8,9 +8,13 @@
 #endif
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cstring>
 #include <new>
+#include <utility>
+
+#include "lobelia/simd.h"
 
 namespace lobelia {
 namespace {
@@ -106,6 +110,15 @@ RayHit find(RTCScene scene, Context& context, RTCFilterFunctionN filter, RTCRay 
     return {query.ray.tfar, query.hit.primID, query.hit.u, query.hit.v};
 }
 
+/// Lets Embree use the instruction set of the kernels: what hits a ray reports differs in the last bits, too.
+const char* device_configuration() {
+    constexpr std::array sets = {std::pair{"AVX3", "isa=avx512"}, std::pair{"AVX2", "isa=avx2"},
+                                 std::pair{"SSE4", "isa=sse4.2"}, std::pair{"SCALAR", "isa=sse2"}};
+    for (const auto& [target, configuration] : sets)
+        if (simd_target() == target) return configuration;
+    return nullptr;
+}
+
 }  // namespace
 
 struct RayScene::Handles {
@@ -117,7 +130,7 @@ RayScene::RayScene(const World& world, std::vector<std::uint8_t> kinds, const Tr
     : kinds_(std::move(kinds)), transparency_(&transparency), handles_(new Handles), all_kinds_(0) {
     for (const std::uint8_t kind : kinds_) all_kinds_ |= kind;
     assert(kinds_.size() == world.triangles.size());
-    handles_->device = rtcNewDevice(nullptr);
+    handles_->device = rtcNewDevice(device_configuration());
     handles_->scene = rtcNewScene(handles_->device);
     rtcSetSceneFlags(handles_->scene, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | k_filter_flag));
     rtcSetSceneBuildQuality(handles_->scene, RTC_BUILD_QUALITY_HIGH);

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "bake/session/instruction_sets.h"
 #include "lobelia/result.h"
 
 namespace lobelia {
@@ -21,7 +22,7 @@ struct RegionHeader {
     std::uint32_t samples_per_pass = 0;
     std::uint32_t shard_by = 0, shard_index = 0, shard_count = 1;  ///< Shard
     std::uint32_t first_place = 0, end_place = 0;                  ///< tiles: places in the plan's list
-    std::uint32_t reserved = 0;
+    InstructionSets instruction_sets = 0;                          ///< that the states were made with
     std::uint64_t rays = 0;
     double seconds = 0;
 };

@@ -86,6 +86,7 @@ class Merger {
                 passes_[place] == 0);
             passes_[place] += h.end_pass - h.first_pass;
         }
+        whole.header.instruction_sets = joined(whole.header.instruction_sets, h.instruction_sets);
         if (!counted(file)) {
             whole.header.rays += h.rays;
             whole.header.seconds += h.seconds;

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "bake/place/texels.h"
+#include "lobelia/simd.h"
 
 namespace lobelia {
 namespace {
@@ -99,6 +100,7 @@ Result<RegionStates> RegionGatherer::states_of(std::size_t region, std::span<con
     fresh.header.shard_count = options.shard.count;
     fresh.header.first_place = plan.regions[region].first;
     fresh.header.end_place = plan.regions[region].end;
+    fresh.header.instruction_sets = simd_target_id();
     if (checkpoint_.empty()) return fresh;
 
     const auto path = region_file(checkpoint_, region);
@@ -115,6 +117,7 @@ Result<RegionStates> RegionGatherer::states_of(std::size_t region, std::span<con
         is.samples_per_pass != wanted.samples_per_pass || is.first_pass != wanted.first_pass)
         return Error{path.string() +
                      ": was made with another --memory, --shard or --samples-per-pass; use the same again"};
+    kept->header.instruction_sets = joined(is.instruction_sets, wanted.instruction_sets);
     return kept;
 }
 

@@ -125,7 +125,7 @@ void HorizonIrradiance::values(DirectionView block, float* rows) const {
 }
 
 std::shared_ptr<const LinearBasis> hemisphere_polynomials(std::size_t count) {
-    assert(count == 4 || count == 6);
+    check_equal("polynomials, unless they are 4", count, count == 4 ? 4 : 6);
     return std::make_shared<HemispherePolynomials>(count);
 }
 
@@ -165,6 +165,7 @@ std::shared_ptr<const Evaluator> HemispherePolynomials::evaluator(std::string_vi
 }
 
 Basis::Rotated HemispherePolynomials::rotated(const Rotation& r, std::span<const Rgb> c) const {
+    check_equal("coefficients", c.size(), size());
     // About z by the angle t: (x, y) as a vector, (x^2 - y^2, 2xy) as one turned by 2t.
     const float cosine = r[0].x, sine = r[1].x;
     std::vector<Rgb> turned(c.begin(), c.end());

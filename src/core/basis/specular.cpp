@@ -6,6 +6,9 @@
 namespace lobelia {
 namespace {
 
+/// The index of a direction has 32 bits.
+constexpr std::size_t k_most_directions = std::size_t{1} << 24;
+
 class SampledSpecular final : public SpecularEvaluator {
   public:
     SampledSpecular(std::shared_ptr<const Basis> basis, std::size_t count) : basis_(std::move(basis)), count_(count) {}
@@ -14,6 +17,7 @@ class SampledSpecular final : public SpecularEvaluator {
         return {"any alpha and view", "that of " + std::to_string(count_) + " directions", Reading::of_radiance, 0};
     }
     void reflected(std::span<const Rgb> c, const SpecularPoints& points, MutableColourView out) const override {
+        check_specular(basis_->size(), c, points, out);
         Directions directions(count_);
         Colours radiance(count_);
         for (std::size_t i = 0; i < points.size(); ++i) {
@@ -60,7 +64,7 @@ void specular(const SpecularEvaluator& evaluator, std::span<const Rgb> c, const 
 }
 
 std::shared_ptr<const SpecularEvaluator> make_sampled_specular(std::shared_ptr<const Basis> basis, std::size_t count) {
-    assert(count > 0);
+    check_range("directions", count, 1, k_most_directions);
     return std::make_shared<SampledSpecular>(std::move(basis), count);
 }
 

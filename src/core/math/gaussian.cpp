@@ -2,7 +2,6 @@
 #include "core/math/gaussian.h"
 
 #include <algorithm>
-#include <cassert>
 
 #include "core/math/harmonics.h"
 #include "core/math/quadrature.h"
@@ -110,7 +109,7 @@ double mean_cosine(double sharpness) {
 }
 
 double sharpness_from_mean_cosine(double r) {
-    assert(r >= 0 && r < 1);
+    LOBELIA_ASSERT(r >= 0 && r < 1);
     // Banerjee's estimate, polished by Newton: L' = 1 - L^2 - 2 L / lambda.
     double s = r * (3 - r * r) / (1 - r * r);
     for (int i = 0; i < 8 && s > 1e-9; ++i) {
@@ -123,7 +122,9 @@ double sharpness_from_mean_cosine(double r) {
 
 std::vector<double> irradiance_series(double sharpness, double tolerance) {
     // Ratios r_l = i_l / i_{l-1} by backward recurrence, well past the last term that counts.
-    const auto last = static_cast<std::size_t>(20 + 9 * std::sqrt(sharpness));
+    // A NaN has the shortest series, and what no float tells from infinity that of the largest.
+    constexpr double most = 1e8;
+    const auto last = static_cast<std::size_t>(20 + 9 * std::sqrt(std::min(std::max(0.0, sharpness), most)));
     std::vector<double> ratio(last + 2, 0.0);
     for (std::size_t l = last; l >= 1; --l)
         ratio[l] = sharpness / (static_cast<double>(2 * l + 1) + sharpness * ratio[l + 1]);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/math/dense.h"
 
@@ -83,6 +84,9 @@ std::vector<double> non_negative_least_squares(const Matrix& gram, std::span<con
     const auto n = static_cast<Eigen::Index>(m.size());
     const Eigen::MatrixXd g = as_matrix(gram, m.size());
     const Eigen::VectorXd target = Eigen::Map<const Eigen::VectorXd>(m.data(), n);
+    // The search compares numbers, which NaN would keep going for ever: what is not finite gives NaN.
+    if (!g.allFinite() || !target.allFinite())
+        return std::vector<double>(m.size(), std::numeric_limits<double>::quiet_NaN());
     FreeSet set(g, target);
     for (Eigen::Index step = 0; step < 10 * n; ++step) {
         const Eigen::Index freed = set.free_next();

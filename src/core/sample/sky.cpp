@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <map>
 #include <string>
 
@@ -99,7 +98,7 @@ Status check(const SkyOptions& o) {
 }
 
 SunDisc sun_disc(const SkyOptions& options) {
-    assert(check(options));
+    if (const Status valid = check(options); !valid) contract_violated(valid.error().message);
     // Find the relative air mass between the sun and the ground (Kasten 1966).
     const double theta = 90 - options.sun_elevation;
     const double m = 1 / (std::cos(radians(theta)) + 0.15 * std::pow(93.885 - theta, -1.253));
@@ -130,7 +129,7 @@ Sky::Perez Sky::perez(std::array<double, 5> k, double zenith, double sun_theta) 
 }
 
 Sky::Sky(const SkyOptions& options) : sun_(sun_direction(options)) {
-    assert(check(options));
+    if (const Status valid = check(options); !valid) contract_violated(valid.error().message);
     // Set up the three distributions (appendix A.2).
     const double t = options.turbidity, theta = radians(90 - options.sun_elevation);
     luminance_ = perez(
@@ -202,6 +201,7 @@ void add_sun(Image& image, const SunDisc& sun) {
 }  // namespace
 
 Image sky(LatLong grid, const SkyOptions& options) {
+    check_grid(grid);
     const Sky radiance(options);
     Image image(grid.width, grid.height);
     for (std::size_t i = 0; i < grid.size(); ++i) image.pixels[i] = radiance(grid.direction(i));

@@ -25,6 +25,10 @@ Error unsuitable(const Storage& storage, const CoefficientTraits& traits) {
                  std::string(needs[static_cast<std::size_t>(storage.suits)]) + "; usable with this codec: " + suitable};
 }
 
+void check_traits(const Storage& storage, const CoefficientTraits& traits, SourcePlace place = SourcePlace::here()) {
+    if (!suits(storage, traits)) contract_violated(unsuitable(storage, traits).message, place);
+}
+
 /// Largest magnitude of a texel's three channels of a coefficient.
 float largest_channel(const CoefficientPlanes& c, std::size_t coefficient, std::size_t texel) {
     float largest = 0;
@@ -126,6 +130,10 @@ Result<std::vector<const Storage*>> find_storages(std::span<const std::string> n
 
 void allowed_error(const Storage& storage, const CoefficientTraits& traits, const CoefficientPlanes& coefficients,
                    const MutableCoefficientPlanes& out) {
+    check_traits(storage, traits);
+    check_equal("planes of coefficients", coefficients.planes.size(), 3 * traits.count);
+    check_equal("planes of bounds", out.planes.size(), coefficients.planes.size());
+    check_equal("texels of the bounds", out.size(), coefficients.size());
     const TextureLayout layout = storage.layout(traits);
     float largest = 0;
     for (const float* plane : coefficients.planes)
@@ -146,6 +154,8 @@ void allowed_error(const Storage& storage, const CoefficientTraits& traits, cons
 }
 
 std::vector<Rgb> stored_and_read(const Storage& storage, const CoefficientTraits& traits, std::span<const Rgb> c) {
+    check_traits(storage, traits);
+    check_equal("coefficients", c.size(), traits.count);
     std::vector<float> in(3 * c.size()), back(in.size());
     CoefficientPlanes planes(1, 1, {});
     MutableCoefficientPlanes read(1, 1, {});

@@ -70,7 +70,8 @@ std::size_t byte_size(PixelFormat format, std::size_t width, std::size_t height)
 void encode_texels(PixelFormat format, std::size_t width, std::size_t height, ChannelPointers channels,
                    std::span<std::byte> out) {
     const FormatEntry& entry = entry_of(format);
-    assert(channels.size() == entry.info.channels && out.size() == byte_size(format, width, height));
+    check_equal("channels", channels.size(), entry.info.channels);
+    check_equal("bytes", out.size(), byte_size(format, width, height));
     if (entry.encode)
         encode_plain(entry, width * height, channels, out.data());
     else
@@ -80,7 +81,8 @@ void encode_texels(PixelFormat format, std::size_t width, std::size_t height, Ch
 void decode_texels(PixelFormat format, std::size_t width, std::size_t height, std::span<const std::byte> bytes,
                    MutableChannelPointers channels) {
     const FormatEntry& entry = entry_of(format);
-    assert(channels.size() == entry.info.channels && bytes.size() == byte_size(format, width, height));
+    check_equal("channels", channels.size(), entry.info.channels);
+    check_equal("bytes", bytes.size(), byte_size(format, width, height));
     if (entry.decode)
         decode_plain(entry, width * height, bytes.data(), channels);
     else
