@@ -135,8 +135,8 @@ struct BakeSession {
 /// them into the session's folder. The same bits for any number of threads, regions, sessions and tile shards. The bake
 /// of a shard (job.bake.shard.count > 1) has no pages: its states lie in the session's folder for merge_bake.
 /// Preconditions: the scene passes check_scene. Errors name what is wrong and the remedy: an option out of range, a
-/// folder in use; an early stop is an error. Resumed with more samples than the job in the folder, it is an error if the
-/// states there do not hold all of that job's.
+/// folder in use; an early stop is an error. Resumed with more samples than the job in the folder, it is an error if
+/// the states there do not hold all of that job's.
 [[nodiscard]] Result<Bake> bake(const Scene& scene, const BakeJob& job, BakeSession& session);
 
 /// Merges the checkpoints of all shards of a job, given by their bakes' folders, into the session's folder, and
@@ -147,8 +147,8 @@ struct BakeSession {
                                       std::span<const std::filesystem::path> shards, BakeSession& session);
 
 /// Bakes the texels of one object again, in the scene as it is now, and replaces them in `there`, a finished bake of
-/// the same job (an error otherwise). `object` is its name, or its index as "#3". The states in the session's folder are
-/// removed, as they do not hold the new texels: nothing can be resumed there afterwards.
+/// the same job (an error otherwise). `object` is its name, or its index as "#3". The states in the session's folder
+/// are removed, as they do not hold the new texels: nothing can be resumed there afterwards.
 [[nodiscard]] Result<Bake> rebake_object(const Scene& scene, const BakeJob& job, std::string_view object, Bake there,
                                          BakeSession& session);
 
@@ -161,9 +161,9 @@ struct WriteBakeOptions {
 };
 
 /// Writes a folder: pages, textures, probes, bake.json; returns the manifest with the files' names and checksums. The
-/// files take their places in one step for readers, even if the process is killed meanwhile; files of an older bake there
-/// that this one does not have are removed. The folder is made if it is missing, and locked. Values that half floats
-/// cannot hold are written as floats, with a warning in the manifest; values that are not finite are an error.
+/// files take their places in one step for readers, even if the process is killed meanwhile; files of an older bake
+/// there that this one does not have are removed. The folder is made if it is missing, and locked. Values that half
+/// floats cannot hold are written as floats, with a warning in the manifest; values that are not finite are an error.
 [[nodiscard]] Result<Manifest> write_bake(const std::filesystem::path& folder, const Bake& bake,
                                           const WriteBakeOptions& options = {});
 

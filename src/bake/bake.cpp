@@ -225,9 +225,10 @@ Result<Bake> run(const Scene& scene, const BakeJob& job, const BakeSession& sess
 Status merge_into(const Scene& scene, const BakeJob& job, std::span<const fs::path> shards,
                   const BakeSession& session) {
     if (!region_names(session.folder).empty())
-        return Error{fmt::format("{}: holds the states of a bake already; complete it: lobelia bake --resume -o {}; or "
-                                 "merge into another folder",
-                                 checkpoint_folder(session.folder).string(), session.folder.string())};
+        return Error{
+            fmt::format("{}: holds the states of a bake already; complete it: lobelia bake --resume -o {}; or "
+                        "merge into another folder",
+                        checkpoint_folder(session.folder).string(), session.folder.string())};
     const auto setup = BakeSetup::make(scene, job.bake);
     if (!setup) return setup.error();
     FilesTogether files(session.lock);

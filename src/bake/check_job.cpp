@@ -16,8 +16,8 @@ class RangeCheck {
     void operator()(const char* name, T value, const OptionRange& range) {
         const auto number = static_cast<double>(value);
         if (status_ && !(number >= range.low && number <= range.high))
-            status_ =
-                Error{fmt::format("{} = {:.10g} is out of range: {:.10g} to {:.10g}", name, number, range.low, range.high)};
+            status_ = Error{
+                fmt::format("{} = {:.10g} is out of range: {:.10g} to {:.10g}", name, number, range.low, range.high)};
     }
     template <class T>
     void operator()(const char* name, const std::optional<T>& value, const OptionRange& range) {

@@ -31,7 +31,8 @@ Result<Shard> parse_shard(const std::string& text, Shard::By by) {
     const bool good = index_code == std::errc() && slash != end && *slash == '/';
     const auto [rest, count_code] =
         good ? std::from_chars(slash + 1, end, shard.count) : std::from_chars_result{end, {}};
-    if (!good || count_code != std::errc() || rest != end || shard.index >= shard.count || shard.count > ranges::shards.high)
+    if (!good || count_code != std::errc() || rest != end || shard.index >= shard.count ||
+        shard.count > ranges::shards.high)
         return Error{"--shard: \"" + text + "\" is not a part such as 0/4, counted from 0"};
     return shard;
 }

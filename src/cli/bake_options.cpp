@@ -15,7 +15,7 @@ template <class T>
 CLI::Range whole_in(const OptionRange& range) {
     return {static_cast<T>(range.low), static_cast<T>(range.high)};
 }
-CLI::Validator number_in(const OptionRange& range) { return number_in(range.low, range.high); }
+CLI::Validator number_in(const OptionRange& range) { return cli::number_in(range.low, range.high); }
 
 /// Adds options to one group of the help.
 class Group {
@@ -116,7 +116,9 @@ void add_session_options(CLI::App& command, BakeArguments& a) {
     group.option("--time", bake.most_seconds, "Stop after the first pass that exceeds this many seconds")
         ->check(number_in(ranges::seconds));
     group.flag("--resume", a.resume, "Continue the stopped bake or merge in --out with its options");
-    group.option("--add-samples", a.add_samples, "Continue the finished bake in --out with this many more samples per texel")
+    group
+        .option("--add-samples", a.add_samples,
+                "Continue the finished bake in --out with this many more samples per texel")
         ->check(whole_in<unsigned>(ranges::samples));
     group.option("--rebake-object", a.rebake_object,
                  "Bake one object of the finished bake in --out again, in the scene as it is now; by name, or by "

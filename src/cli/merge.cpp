@@ -34,7 +34,9 @@ Status merge_verb(const MergeArguments& arguments) {
 Verb add_merge(CLI::App& app) {
     auto arguments = std::make_shared<MergeArguments>();
     CLI::App* command = app.add_subcommand("merge", "Merge the shards of a bake");
-    command->add_option("PART", arguments->parts, "Folders of all shards of one bake, which hold each pass exactly once")->required();
+    command
+        ->add_option("PART", arguments->parts, "Folders of all shards of one bake, which hold each pass exactly once")
+        ->required();
     command->add_option("-o,--out", arguments->out, "Output folder")->required();
     command->add_option("-t,--threads", arguments->threads, "Number of threads, 0: one per processor")
         ->check(CLI::Range(0u, 1024u))

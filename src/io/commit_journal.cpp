@@ -114,9 +114,10 @@ std::optional<CommitFailure> commit(const fs::path& folder, const CommitJournal&
     if (!status) return CommitFailure{status.error(), false};
     status = take_steps(folder, journal);
     if (status) return std::nullopt;
-    return CommitFailure{Error{status.error().message +
-                               "; the new files are complete, and the next command that writes here puts them in place"},
-                         true};
+    return CommitFailure{
+        Error{status.error().message +
+              "; the new files are complete, and the next command that writes here puts them in place"},
+        true};
 }
 
 Status finish_commit(const fs::path& folder) {

@@ -38,7 +38,8 @@ Result<io::Descriptor> open_lock(const fs::path& path) {
 
 /// Returns whether the path still names the open file: the last owner removes it.
 bool names(const fs::path& path, const io::Descriptor& file) {
-    struct stat named {}, open {};
+    struct stat named {
+    }, open{};
     return ::lstat(path.c_str(), &named) == 0 && ::fstat(file.get(), &open) == 0 && named.st_ino == open.st_ino &&
            named.st_dev == open.st_dev;
 }
@@ -55,8 +56,7 @@ void write_owner(const io::Descriptor& file) {
     if (::gethostname(host.data(), host.size() - 1) != 0) host.fill(0);
     const nlohmann::ordered_json owner = {
         {"process", ::getpid()}, {"host", host.data()}, {"seconds_since_1970", std::time(nullptr)}};
-    const std::string text =
-        owner.dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+    const std::string text = owner.dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace) + "\n";
     // It is for messages only: a full disk does not matter here.
     if (::ftruncate(file.get(), 0) == 0) (void)io::write_all(file, std::as_bytes(std::span(text)));
 }
@@ -65,13 +65,13 @@ void write_owner(const io::Descriptor& file) {
 std::string owner_in(const io::Descriptor& file, const std::string& name) {
     std::array<char, 1024> text{};
     const ssize_t size = ::pread(file.get(), text.data(), text.size(), 0);
-    const auto described = read_json({text.data(), static_cast<std::size_t>(std::max<ssize_t>(0, size))}, name,
-                                     [](const JsonPlace& top) {
-        constexpr std::uint64_t k_latest = 253402300799;  // the end of the year 9999
-        const auto since = static_cast<std::time_t>(top.at("seconds_since_1970").whole(0, k_latest));
-        return fmt::format("process {} on {}, since {:%F %T} UTC ({})", top.at("process").whole(0, 1u << 30),
-                           top.at("host").file_name(), fmt::gmtime(since), age(std::time(nullptr) - since));
-    });
+    const auto described =
+        read_json({text.data(), static_cast<std::size_t>(std::max<ssize_t>(0, size))}, name, [](const JsonPlace& top) {
+            constexpr std::uint64_t k_latest = 253402300799;  // the end of the year 9999
+            const auto since = static_cast<std::time_t>(top.at("seconds_since_1970").whole(0, k_latest));
+            return fmt::format("process {} on {}, since {:%F %T} UTC ({})", top.at("process").whole(0, 1u << 30),
+                               top.at("host").file_name(), fmt::gmtime(since), age(std::time(nullptr) - since));
+        });
     return described ? *described : "another process";
 }
 

@@ -79,8 +79,8 @@ class Sessions : public testing::Test {
 TEST_F(Sessions, ShardsOfSamplesMustHoldEachPassOnce) {
     using By = Shard::By;
     const auto of_samples = [&](std::uint32_t i, std::uint32_t n) { return shard({By::samples, i, n}); };
-    const fs::path half0 = of_samples(0, 2), half1 = of_samples(1, 2), third = of_samples(1, 3), quarter2 = of_samples(2, 4),
-                   quarter3 = of_samples(3, 4);
+    const fs::path half0 = of_samples(0, 2), half1 = of_samples(1, 2), third = of_samples(1, 3),
+                   quarter2 = of_samples(2, 4), quarter3 = of_samples(3, 4);
     EXPECT_EQ(merged({half0, half1}), "");
     EXPECT_EQ(merged({half1, half0}), "");
     // Shards of other counts whose passes are the whole all the same.
@@ -90,9 +90,9 @@ TEST_F(Sessions, ShardsOfSamplesMustHoldEachPassOnce) {
     EXPECT_NE(merged({half1}).find("passes 0 to 1 of 4 are missing"), std::string::npos);
     EXPECT_NE(merged({half0, quarter3}).find("pass 2 of 4 are missing after those of " + half0.string()),
               std::string::npos);
-    EXPECT_NE(merged({half0, third}).find("pass 1 of 4 are given twice, by " + half0.string() + " and by " +
-                                          third.string()),
-              std::string::npos)
+    EXPECT_NE(
+        merged({half0, third}).find("pass 1 of 4 are given twice, by " + half0.string() + " and by " + third.string()),
+        std::string::npos)
         << merged({half0, third});
     EXPECT_NE(merged({half0, half0, half1}).find("given twice"), std::string::npos);
     // A shard of a bake with more samples.
@@ -116,17 +116,18 @@ TEST_F(Sessions, JobFilesAreUnderstoodCompletelyOrRefused) {
     struct Case {
         std::string from, to, says;
     };
-    for (const Case& c : std::vector<Case>{{"\"samples\": 64", "\"samples\": 4294967295", "samples = 4294967295 is out"},
-                                           {"\"samples\": 64", "\"samples\": 0", "samples = 0 is out of range"},
-                                           {"\"samples\": 64", "\"sample\": 64", "bake.sample: unknown"},
-                                           {"\"samples_per_pass\": 16", "\"samples_per_pass\": 0", "samples per pass"},
-                                           {"\"samples_per_pass\": 16", "\"samples_per_pass\": 24", "multiple of 16"},
-                                           {"\"bounces\": 1", "\"bounces\": 65", "bounces = 65"},
-                                           {"\"padding\": 2", "\"padding\": 65", "padding = 65"},
-                                           {"\"memory\"", "\"memori\"", "memori: unknown"},
-                                           {"\"denoise\"", "\"denoisy\"", "finish.denoisy: unknown"},
-                                           {"\"uv_set\": 1", "\"uv_set\": 99", "uv set"},
-                                           {"{", "{\"codek\": 1,", "codek: unknown"}}) {
+    for (const Case& c :
+         std::vector<Case>{{"\"samples\": 64", "\"samples\": 4294967295", "samples = 4294967295 is out"},
+                           {"\"samples\": 64", "\"samples\": 0", "samples = 0 is out of range"},
+                           {"\"samples\": 64", "\"sample\": 64", "bake.sample: unknown"},
+                           {"\"samples_per_pass\": 16", "\"samples_per_pass\": 0", "samples per pass"},
+                           {"\"samples_per_pass\": 16", "\"samples_per_pass\": 24", "multiple of 16"},
+                           {"\"bounces\": 1", "\"bounces\": 65", "bounces = 65"},
+                           {"\"padding\": 2", "\"padding\": 65", "padding = 65"},
+                           {"\"memory\"", "\"memori\"", "memori: unknown"},
+                           {"\"denoise\"", "\"denoisy\"", "finish.denoisy: unknown"},
+                           {"\"uv_set\": 1", "\"uv_set\": 99", "uv set"},
+                           {"{", "{\"codek\": 1,", "codek: unknown"}}) {
         std::string text = good;
         const auto found = text.find(c.from);
         ASSERT_NE(found, std::string::npos) << c.from;
@@ -176,7 +177,8 @@ class FieldChanger {
         if (is_it(name)) value = value.value_or(0) + 0.25;
     }
     void text(const char* name, std::string& value) {
-        if (is_it(name)) value = value == "sh2/moments/convolution" ? "sh1/moments/convolution" : "sh2/moments/convolution";
+        if (is_it(name))
+            value = value == "sh2/moments/convolution" ? "sh1/moments/convolution" : "sh2/moments/convolution";
     }
     void text(const char* name, std::optional<std::string>& value) {
         if (is_it(name)) value = "#1";
@@ -209,8 +211,8 @@ class FieldChanger {
 
 TEST_F(Sessions, TheHashOfStatesHasEveryOption) {
     // Those that the header of the states has itself, or that do not change the states.
-    const std::set<std::string> others = {"bake.samples",     "bake.samples_per_pass", "bake.most_seconds",
-                                          "bake.shard.by",    "bake.shard.index",      "bake.shard.count"};
+    const std::set<std::string> others = {"bake.samples",  "bake.samples_per_pass", "bake.most_seconds",
+                                          "bake.shard.by", "bake.shard.index",      "bake.shard.count"};
     const auto options = [](auto& archive, BakeOptions& bake) {
         archive.group("bake", bake);
         archive.text("codec", bake.codec);
@@ -290,9 +292,8 @@ TEST_F(Sessions, AFolderHasOneWriter) {
     {
         const auto lock = lock_folder(*this / "a");
         ASSERT_TRUE(lock) << lock.error().message;
-        for (const std::string& refused :
-             {bake_in(*this / "a", job), lock_folder(*this / "a").error().message,
-              write_bake(*this / "a", Bake()).error().message}) {
+        for (const std::string& refused : {bake_in(*this / "a", job), lock_folder(*this / "a").error().message,
+                                           write_bake(*this / "a", Bake()).error().message}) {
             EXPECT_NE(refused.find("process " + std::to_string(::getpid())), std::string::npos) << refused;
             EXPECT_NE(refused.find("second"), std::string::npos) << refused;
         }

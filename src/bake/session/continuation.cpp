@@ -19,10 +19,10 @@ Status check_more_samples(const BakeSetup& setup, const fs::path& folder, const 
         return Error{folder.string() +
                      ": a shard of samples cannot get more of them: merge the shards, and add samples to the whole"};
     if (done >= passes_of(kept.bake, kept.bake.shard).end) return Done{};
-    return Error{fmt::format("{}: its states hold {} samples of {}, to which no more are added; complete it first: "
-                             "lobelia bake --resume -o {}",
-                             folder.string(), std::uint64_t{done} * options.samples_per_pass, kept.bake.samples,
-                             folder.string())};
+    return Error{fmt::format(
+        "{}: its states hold {} samples of {}, to which no more are added; complete it first: "
+        "lobelia bake --resume -o {}",
+        folder.string(), std::uint64_t{done} * options.samples_per_pass, kept.bake.samples, folder.string())};
 }
 
 }  // namespace
@@ -88,9 +88,10 @@ Status check_continuation(const BakeSetup& setup, const fs::path& folder) {
 }
 
 Error earlier_checkpoint(const fs::path& folder) {
-    return Error{fmt::format("{}: holds the states of an earlier bake; continue it: lobelia bake --resume -o {}; or "
-                             "remove them",
-                             checkpoint_folder(folder).string(), folder.string())};
+    return Error{
+        fmt::format("{}: holds the states of an earlier bake; continue it: lobelia bake --resume -o {}; or "
+                    "remove them",
+                    checkpoint_folder(folder).string(), folder.string())};
 }
 
 }  // namespace lobelia

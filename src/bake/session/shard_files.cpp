@@ -56,9 +56,11 @@ std::string fault_of(std::span<const ShardFile* const> files, std::uint32_t pass
         before = file;
     }
     if (end == passes) return {};
-    const auto next = std::find_if(files.begin(), files.end(), [&](const auto* f) { return f->header.first_pass > end; });
+    const auto next =
+        std::find_if(files.begin(), files.end(), [&](const auto* f) { return f->header.first_pass > end; });
     return passes_text(end, next == files.end() ? passes : (*next)->header.first_pass) +
-           fmt::format(" of {} are missing{}", passes, before == nullptr ? "" : " after those of " + before->folder.string());
+           fmt::format(" of {} are missing{}", passes,
+                       before == nullptr ? "" : " after those of " + before->folder.string());
 }
 
 /// Lists what was given, for the error.
@@ -111,9 +113,10 @@ Status check_whole(const BakeSetup& bake, std::span<const ShardFile> files) {
         if (!fault.empty() && faults++ == 0) first = fault;
     }
     if (faults == 0) return Done{};
-    return Error{fmt::format("the shards do not make a whole bake: {}, in {} of {}. {}. Continue an unfinished shard: "
-                             "lobelia bake --resume -o FOLDER; bake a missing one with --shard; give each once",
-                             first, faults, counted(of_tile.size(), "tile"), given(files))};
+    return Error{
+        fmt::format("the shards do not make a whole bake: {}, in {} of {}. {}. Continue an unfinished shard: "
+                    "lobelia bake --resume -o FOLDER; bake a missing one with --shard; give each once",
+                    first, faults, counted(of_tile.size(), "tile"), given(files))};
 }
 
 }  // namespace lobelia

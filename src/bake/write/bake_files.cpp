@@ -19,10 +19,11 @@ Result<std::filesystem::path> BakeFiles::checked(const std::string& name) const 
     const auto sum = sum_of(*file);
     if (!sum) return sum.error();
     if (*sum == FileSum{entry->size, entry->crc32}) return path;
-    return Error{fmt::format("{}: damaged, or of another bake: {} bytes with CRC-32 {:08x}, but bake.json was written "
-                             "with {} bytes and {:08x}; bake again, or if it was changed on purpose, remove its entry "
-                             "from \"files\" in bake.json",
-                             (folder_.folder() / name).string(), sum->size, sum->crc32, entry->size, entry->crc32)};
+    return Error{
+        fmt::format("{}: damaged, or of another bake: {} bytes with CRC-32 {:08x}, but bake.json was written "
+                    "with {} bytes and {:08x}; bake again, or if it was changed on purpose, remove its entry "
+                    "from \"files\" in bake.json",
+                    (folder_.folder() / name).string(), sum->size, sum->crc32, entry->size, entry->crc32)};
 }
 
 }  // namespace lobelia

@@ -154,8 +154,7 @@ Status check_same_options(const Manifest& manifest, const BakeJob& job) {
         return writer.object.dump() + options.codec;
     };
     const auto& [width, height] = std::pair(job.bake.atlas.width, job.bake.atlas.height);
-    if (text(manifest.options) == text(job.bake) && manifest.width == width && manifest.height == height)
-        return Done{};
+    if (text(manifest.options) == text(job.bake) && manifest.width == width && manifest.height == height) return Done{};
     return Error{
         fmt::format("the finished bake ({}, {} samples) has other options than the job of its checkpoint ({}, {} "
                     "samples), which is unfinished; complete it first with --resume",
