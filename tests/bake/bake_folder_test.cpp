@@ -92,7 +92,9 @@ TEST_F(CommittedBake, AnInterruptedCommitIsReadAsItWillBe) {
         interrupt(path() / "a", renames, {"bake.html"});
         test::overwrite(path() / "a" / ".lobelia-1-ffff-0.tmp", "left behind");
         // Readers see the new one, and change nothing.
-        const auto count = [&] { return std::distance(fs::directory_iterator(path() / "a"), {}); };
+        const auto count = [&] {
+            return std::distance(fs::directory_iterator(path() / "a"), fs::directory_iterator());
+        };
         const auto before = count();
         auto read = read_bake(path() / "a");
         ASSERT_TRUE(read) << read.error().message;

@@ -86,12 +86,12 @@ TEST_F(Sessions, ShardsOfSamplesMustHoldEachPassOnce) {
     // Shards of other counts whose passes are the whole all the same.
     EXPECT_EQ(merged({half0, quarter2, quarter3}), "");
     // One alone, either; two that leave a gap or overlap; one twice.
-    EXPECT_NE(merged({half0}).find("passes 2 to 3 of 4 are missing"), std::string::npos) << merged({half0});
-    EXPECT_NE(merged({half1}).find("passes 0 to 1 of 4 are missing"), std::string::npos);
-    EXPECT_NE(merged({half0, quarter3}).find("pass 2 of 4 are missing after those of " + half0.string()),
+    EXPECT_NE(merged({half0}).find("missing: passes 2 to 3 of 4"), std::string::npos) << merged({half0});
+    EXPECT_NE(merged({half1}).find("missing: passes 0 to 1 of 4"), std::string::npos);
+    EXPECT_NE(merged({half0, quarter3}).find("missing: pass 2 of 4, after those of " + half0.string()),
               std::string::npos);
     EXPECT_NE(
-        merged({half0, third}).find("pass 1 of 4 are given twice, by " + half0.string() + " and by " + third.string()),
+        merged({half0, third}).find("given twice: pass 1 of 4, by " + half0.string() + " and by " + third.string()),
         std::string::npos)
         << merged({half0, third});
     EXPECT_NE(merged({half0, half0, half1}).find("given twice"), std::string::npos);

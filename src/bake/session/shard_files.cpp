@@ -48,7 +48,7 @@ std::string fault_of(std::span<const ShardFile* const> files, std::uint32_t pass
             return fmt::format("{} has {}, more than the {} of the first folder's job", file->folder.string(),
                                passes_text(h.first_pass, h.end_pass), passes);
         if (h.first_pass < end)
-            return fmt::format("{} of {} are given twice, by {} and by {}",
+            return fmt::format("given twice: {} of {}, by {} and by {}",
                                passes_text(h.first_pass, std::min(end, h.end_pass)), passes, before->folder.string(),
                                file->folder.string());
         if (h.first_pass > end) break;
@@ -58,9 +58,9 @@ std::string fault_of(std::span<const ShardFile* const> files, std::uint32_t pass
     if (end == passes) return {};
     const auto next =
         std::find_if(files.begin(), files.end(), [&](const auto* f) { return f->header.first_pass > end; });
-    return passes_text(end, next == files.end() ? passes : (*next)->header.first_pass) +
-           fmt::format(" of {} are missing{}", passes,
-                       before == nullptr ? "" : " after those of " + before->folder.string());
+    return fmt::format("missing: {} of {}{}",
+                       passes_text(end, next == files.end() ? passes : (*next)->header.first_pass), passes,
+                       before == nullptr ? "" : ", after those of " + before->folder.string());
 }
 
 /// Lists what was given, for the error.
