@@ -10,9 +10,11 @@
 #include "bake/place/objects.h"
 #include "bake/preflight/preflight.h"
 #include "bake/probes/bake_probes.h"
+#include "bake/session/continuation.h"
 #include "bake/session/merge.h"
 #include "bake/session/regions.h"
 #include "bake/solve/solve.h"
+#include "bake/write/bake_folder.h"
 #include "bake/write/job_file.h"
 #include "bake/write/manifest.h"
 #include "bake/write/page_textures.h"
@@ -44,7 +46,6 @@ Status check_textures(const BakeJob& job) {
 
 /// Lays out pages, texels and probes; checks everything that is cheap to refuse, and warns.
 Result<BakeWork> place(const Scene& scene, const BakeJob& job, const BakeSession& session) {
-    if (const auto valid = check(job); !valid) return valid.error();
     if (auto status = check_textures(job); !status) return status.error();
     auto setup = BakeSetup::make(scene, job.bake);
     if (!setup) return setup.error();
@@ -161,9 +162,13 @@ Status add_probes(BakeWork& work, const BakeJob& job, const BakeSession& session
     return Done{};
 }
 
-Status write(BakeWork& work, const BakeJob& job, const BakeSession& session) {
+/// Writes the bake into the session's folder; `prepare(FilesTogether&)` adds what is to change there in the same step.
+template <class Prepare>
+Status write(BakeWork& work, const BakeJob& job, const BakeSession& session, const Prepare& prepare) {
     if (session.folder.empty()) return Done{};
-    auto manifest = write_bake(session.folder, work.bake, {job.storages, work.setup->scene, job.container});
+    FilesTogether files(session.lock);
+    if (Status status = prepare(files); !status) return status;
+    auto manifest = write_bake(std::move(files), work.bake, {job.storages, work.setup->scene, job.container});
     if (!manifest) return manifest.error();
     for (std::size_t i = work.bake.manifest.warnings.size(); i < manifest->warnings.size() && session.warn; ++i)
         session.warn(manifest->warnings[i]);
@@ -171,62 +176,102 @@ Status write(BakeWork& work, const BakeJob& job, const BakeSession& session) {
     return Done{};
 }
 
-/// Runs `work` with the job's number of threads.
+/// Removes the states, which do not hold the texels of an object baked again, and notes that in the job.
+Status drop_states(FilesTogether& files, const BakeJob& job, std::string_view object) {
+    if (!holds_job(files.folder())) return Done{};
+    const auto earlier = read_kept_job(files.folder());
+    if (!earlier) return earlier.error();
+    KeptJob kept{job, earlier->rebaked.value_or(std::vector<std::string>())};
+    kept.rebaked->emplace_back(object);
+    for (const std::string& states : region_names(files.folder())) files.remove(states);
+    return files.add_text(k_job_name, to_json_text(kept));
+}
+
+/// Checks the job, and runs `work` with its number of threads.
 template <class Work>
-auto with_threads(const BakeJob& job, const Work& work) {
+auto with_threads(const BakeJob& job, const Work& work) -> decltype(work()) {
+    if (auto status = check(job); !status) return status.error();
     tbb::task_arena arena(job.bake.threads == 0 ? tbb::task_arena::automatic : static_cast<int>(job.bake.threads));
     return arena.execute(work);
 }
 
-/// An error if the folder cannot be written to, or holds states that a fresh start would replace.
-Status check_session(const BakeSession& session) {
+/// Returns the session with its folder locked, if it has one.
+Result<BakeSession> locked(const BakeSession& session) {
+    BakeSession holder = session;
+    if (session.folder.empty() || session.lock) return holder;
+    if (auto status = check_folder(session.folder); !status) return status.error();
+    auto lock = lock_folder(session.folder);
+    if (!lock) return lock.error();
+    holder.lock = *std::move(lock);
+    return holder;
+}
+
+/// Checks what the folder holds against the bake, before anything there is changed; then keeps the job there.
+Status begin(const BakeWork& work, const BakeJob& job, const BakeSession& session) {
     if (session.folder.empty()) return Done{};
-    if (auto status = check_folder(session.folder); !status) return status;
-    std::error_code code;
-    const fs::path states = region_file(checkpoint_folder(session.folder), 0);
-    if (session.start == BakeSession::Start::fresh && fs::exists(states, code)) return earlier_checkpoint(states);
-    return Done{};
+    if (session.start == BakeSession::Start::resume)
+        if (auto status = check_continuation(*work.setup, session.folder); !status) return status;
+    return save_job(session.folder, job);
+}
+
+/// Gathers light with a checkpoint after each pass, finishes the pages and writes the folder.
+Result<Bake> run(const Scene& scene, const BakeJob& job, const BakeSession& session) {
+    if (session.start == BakeSession::Start::fresh && !session.folder.empty() && !region_names(session.folder).empty())
+        return earlier_checkpoint(session.folder);
+
+    // Place texels on pages and in the world.
+    auto work = place(scene, job, session);
+    if (!work) return work.error();
+
+    // Gather light for each texel and solve for its coefficients.
+    const fs::path checkpoint = session.folder.empty() ? fs::path() : checkpoint_folder(session.folder);
+    Status status = begin(*work, job, session);
+    if (status) status = gather_and_solve(*work, session, checkpoint);
+    if (job.bake.shard.count > 1) work->bake.pages.clear();
+    if (!status || job.bake.shard.count > 1) return status ? Result<Bake>(work->bake) : status.error();
+
+    // Finish the pages, add probes, and write the folder.
+    status = finish(*work, job.finish, session, [](auto&) -> Status { return Done{}; });
+    if (status) status = add_probes(*work, job, session);
+    if (status) status = write(*work, job, session, [](FilesTogether&) -> Status { return Done{}; });
+    return status ? Result<Bake>(std::move(work->bake)) : status.error();
+}
+
+/// Puts the states of all shards and the job into the folder, in one step: from then on the bake can be resumed.
+Status merge_into(const Scene& scene, const BakeJob& job, std::span<const fs::path> shards,
+                  const BakeSession& session) {
+    if (!region_names(session.folder).empty())
+        return Error{
+            fmt::format("{}: holds the states of a bake already; complete it: lobelia bake --resume -o {}; or "
+                        "merge into another folder",
+                        checkpoint_folder(session.folder).string(), session.folder.string())};
+    const auto setup = BakeSetup::make(scene, job.bake);
+    if (!setup) return setup.error();
+    FilesTogether files(session.lock);
+    Status status = merge_shards(**setup, shards, files);
+    if (status) status = files.add_text(k_job_name, to_json_text(KeptJob{job, {}}));
+    return status ? files.commit() : status;
 }
 
 }  // namespace
 
 Result<Bake> bake(const Scene& scene, const BakeJob& job, BakeSession& session) {
-    if (auto status = check_session(session); !status) return status.error();
     return with_threads(job, [&]() -> Result<Bake> {
-        // Place texels on pages and in the world.
-        auto work = place(scene, job, session);
-        if (!work) return work.error();
-
-        // Gather light for each texel and solve for its coefficients, with a checkpoint after each pass.
-        const fs::path checkpoint = session.folder.empty() ? fs::path() : checkpoint_folder(session.folder);
-        Status status = checkpoint.empty() ? Done{} : save_job(checkpoint, job);
-        if (status) status = gather_and_solve(*work, session, checkpoint);
-        if (job.bake.shard.count > 1) work->bake.pages.clear();
-        if (!status || job.bake.shard.count > 1) return status ? Result<Bake>(work->bake) : status.error();
-
-        // Finish the pages, add probes, and write the folder.
-        status = finish(*work, job.finish, session, [](auto&) -> Status { return Done{}; });
-        if (status) status = add_probes(*work, job, session);
-        if (status) status = write(*work, job, session);
-        return status ? Result<Bake>(std::move(work->bake)) : status.error();
+        const auto holder = locked(session);
+        return holder ? run(scene, job, *holder) : holder.error();
     });
 }
 
 Result<Bake> merge_bake(const Scene& scene, const BakeJob& job, std::span<const fs::path> shards,
                         BakeSession& session) {
-    if (auto status = check_folder(session.folder); !status) return status.error();
-    std::vector<fs::path> checkpoints;
-    for (const fs::path& shard : shards) checkpoints.push_back(checkpoint_folder(shard));
-    if (const auto valid = check(job); !valid) return valid.error();
-    {
-        const auto setup = BakeSetup::make(scene, job.bake);
-        if (!setup) return setup.error();
-        const Status status = merge_shards(**setup, checkpoints, checkpoint_folder(session.folder));
-        if (!status) return status.error();
-    }
-    // Every pass is there now.
-    session.start = BakeSession::Start::resume;
-    return bake(scene, job, session);
+    return with_threads(job, [&]() -> Result<Bake> {
+        auto holder = locked(session);
+        if (!holder) return holder.error();
+        if (auto status = merge_into(scene, job, shards, *holder); !status) return status.error();
+        // Every pass is there now.
+        holder->start = BakeSession::Start::resume;
+        return run(scene, job, *holder);
+    });
 }
 
 Result<Bake> rebake_object(const Scene& scene, const BakeJob& job, std::string_view object, Bake there,
@@ -236,14 +281,18 @@ Result<Bake> rebake_object(const Scene& scene, const BakeJob& job, std::string_v
     BakeJob of_object = job;
     of_object.bake.only_object = std::string(object);
     return with_threads(job, [&]() -> Result<Bake> {
+        if (auto status = check_same_options(there.manifest, job); !status) return status.error();
+        const auto holder = locked(session);
+        if (!holder) return holder.error();
+
         // Place, gather and solve the texels of the object alone, without a checkpoint.
-        auto work = place(scene, of_object, session);
+        auto work = place(scene, of_object, *holder);
         if (!work) return work.error();
-        Status status = gather_and_solve(*work, session, {});
+        Status status = gather_and_solve(*work, *holder, {});
         if (!status) return status.error();
 
         // Finish them among the texels that are there, and write all of them.
-        status = finish(*work, job.finish, session, [&](std::vector<LightmapPage>& pages) {
+        status = finish(*work, job.finish, *holder, [&](std::vector<LightmapPage>& pages) {
             fit_codec(pages, work->setup->encoding);
             return fill_up_from(there, *work->setup, pages);
         });
@@ -251,20 +300,13 @@ Result<Bake> rebake_object(const Scene& scene, const BakeJob& job, std::string_v
         work->bake.probes = std::move(there.probes);
         work->bake.manifest.statistics = there.manifest.statistics;
         work->bake.manifest.options.only_object.reset();
-        if (status = write(*work, job, session); !status) return status.error();
-
-        // Remove the states, which do not hold the new texels.
-        if (session.folder.empty()) return std::move(work->bake);
-        std::error_code code;
-        const fs::path states = checkpoint_folder(session.folder);
-        for (std::size_t region = 0; fs::remove(region_file(states, region), code);) ++region;
-        return std::move(work->bake);
+        status = write(*work, job, *holder, [&](FilesTogether& files) { return drop_states(files, job, object); });
+        return status ? Result<Bake>(std::move(work->bake)) : status.error();
     });
 }
 
 Result<Preflight> preflight(const Scene& scene, const BakeJob& job) {
     return with_threads(job, [&]() -> Result<Preflight> {
-        if (const auto valid = check(job); !valid) return valid.error();
         if (auto status = check_textures(job); !status) return status.error();
         const auto setup = BakeSetup::make(scene, job.bake);
         if (!setup) return setup.error();

@@ -29,28 +29,35 @@ Status print_preflight(const Preflight& checked, const Scene& scene, const std::
     return Done{};
 }
 
+Status preflight_alone(const BakeJob& job, const std::string& out) {
+    const auto loaded = load_scene_to_bake(job.scene);
+    if (!loaded) return loaded.error();
+    for (const auto& warning : loaded->warnings) complain("lobelia: warning: " + warning);
+    const auto checked = preflight(loaded->scene, job);
+    return checked ? print_preflight(*checked, loaded->scene, out) : checked.error();
+}
+
 Status bake_fresh(const BakeArguments& arguments) {
     if (arguments.job.scene.path.empty())
         return Error{"bake: a scene is missing: a .glb or .gltf file, or cornell or colonnade"};
     const auto job = job_of(arguments);
     if (!job) return job.error();
     if (auto status = check_folder(arguments.out); !status) return status;
+    if (arguments.preflight) return preflight_alone(*job, arguments.out);
+    auto session = session_in(arguments.out);
+    if (!session) return session.error();
     const auto loaded = load_scene_to_bake(job->scene);
     if (!loaded) return loaded.error();
-    const Scene& scene = loaded->scene;
-    if (arguments.preflight) {
-        for (const auto& warning : loaded->warnings) complain("lobelia: warning: " + warning);
-        const auto checked = preflight(scene, *job);
-        return checked ? print_preflight(*checked, scene, arguments.out) : checked.error();
-    }
+    session->earlier_warnings = loaded->warnings;
     const StopOnInterrupt stop;
-    BakeSession session = session_in(arguments.out, stop);
-    session.earlier_warnings = loaded->warnings;
-    return finish_session(scene, *job, bake(scene, *job, session), session);
+    session->stop = &stop.flag();
+    return finish_session(loaded->scene, *job, bake(loaded->scene, *job, *session), *session);
 }
 
 /// Continues a bake, or bakes an object again. Only threads and the time limit are this session's own.
 Status bake_again(const BakeArguments& arguments) {
+    auto session = session_in(arguments.out);
+    if (!session) return session.error();
     auto job = read_job(arguments.out);
     if (!job) return job.error();
     const std::string& path = arguments.job.scene.path;
@@ -63,18 +70,18 @@ Status bake_again(const BakeArguments& arguments) {
     const auto loaded = load_scene_to_bake(job->scene);
     if (!loaded) return loaded.error();
     const Scene& scene = loaded->scene;
+    session->earlier_warnings = loaded->warnings;
     const StopOnInterrupt stop;
-    BakeSession session = session_in(arguments.out, stop);
-    session.earlier_warnings = loaded->warnings;
+    session->stop = &stop.flag();
     if (arguments.rebake_object.empty()) {
-        session.start = BakeSession::Start::resume;
-        return finish_session(scene, *job, bake(scene, *job, session), session);
+        session->start = BakeSession::Start::resume;
+        return finish_session(scene, *job, bake(scene, *job, *session), *session);
     }
     auto there = read_bake(arguments.out);
     if (!there) return there.error();
-    const auto baked = rebake_object(scene, *job, arguments.rebake_object, *std::move(there), session);
+    const auto baked = rebake_object(scene, *job, arguments.rebake_object, *std::move(there), *session);
     job->bake.only_object = arguments.rebake_object;
-    return finish_session(scene, *job, baked, session);
+    return finish_session(scene, *job, baked, *session);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "bake/write/manifest.h"
 #include "cli/common.h"
 #include "io/counted.h"
 #include "report/bake_report.h"
@@ -44,10 +45,11 @@ void print_summary(const Bake& bake) {
     if (bake.probes) fmt::print("{}\n", counted(bake.probes->size(), "probe"));
 }
 
-Status stopped(const BakeSession& session, const BakeOptions& options) {
+Status stopped(BakeSession& session, const BakeOptions& options) {
     complain(options.only_object ? fmt::format("lobelia: stopped; the bake in {} is unchanged", session.folder.string())
                                  : fmt::format("lobelia: stopped; continue with: lobelia bake --resume -o {}",
                                                session.folder.string()));
+    session.lock.reset();
     StopOnInterrupt::end_program();
     return Error{"stopped", Error::Kind::stopped};
 }
@@ -59,21 +61,24 @@ Status write_report(const Scene& scene, const BakeJob& job, const Bake& bake, co
     pictures.progress = progress_bar();
     const auto html = bake_report(scene, bake, job.report, pictures);
     if (!html) return html.error();
-    return write_file_atomically(session.folder / "bake.html", *html);
+    return write_file_atomically(session.folder / k_report_name, *html);
 }
 
 }  // namespace
 
-BakeSession session_in(const std::string& out, const StopOnInterrupt& stop) {
+Result<BakeSession> session_in(const std::string& out) {
+    if (auto status = check_folder(out); !status) return status.error();
+    auto lock = lock_folder(out);
+    if (!lock) return lock.error();
     BakeSession session;
     session.folder = out;
-    session.stop = &stop.flag();
+    session.lock = *std::move(lock);
     session.progress = progress_line();
     session.warn = [](const std::string& text) { complain("lobelia: warning: " + text); };
     return session;
 }
 
-Status finish_session(const Scene& scene, const BakeJob& job, const Result<Bake>& baked, const BakeSession& session) {
+Status finish_session(const Scene& scene, const BakeJob& job, const Result<Bake>& baked, BakeSession& session) {
     const std::string out = session.folder.string();
     const bool report = baked && job.report.write == Switch::on && job.bake.shard.count == 1;
     const Status status = !baked   ? Status(baked.error())
@@ -85,7 +90,7 @@ Status finish_session(const Scene& scene, const BakeJob& job, const Result<Bake>
         return Done{};
     }
     print_summary(*baked);
-    fmt::print("{}\n", (session.folder / (report ? "bake.html" : "bake.json")).string());
+    fmt::print("{}\n", (session.folder / (report ? k_report_name : k_manifest_name)).string());
     return Done{};
 }
 

@@ -130,8 +130,8 @@ Status print_layouts(const std::string& name, Output output) {
 Verb add_list(CLI::App& app) {
     CLI::App* command = app.add_subcommand("list", "List codecs, or their parts");
     auto options = std::make_shared<ListArguments>();
-    CLI::Option* axes = command->add_flag(
-        "--axes", options->axes, "List bases, encoders, evaluators, storages and the other lists");
+    CLI::Option* axes =
+        command->add_flag("--axes", options->axes, "List bases, encoders, evaluators, storages and the other lists");
     command->add_flag("--markdown", options->markdown, "Write docs/bases.md to standard output")->excludes(axes);
     auto* layouts =
         command->add_option("--storages", options->storages,

@@ -14,17 +14,19 @@ struct MergeArguments {
 };
 
 Status merge_verb(const MergeArguments& arguments) {
+    auto session = session_in(arguments.out);
+    if (!session) return session.error();
     auto job = read_job(arguments.parts.front());
     if (!job) return job.error();
     job->bake.shard = {};
     job->bake.threads = arguments.threads;
     const auto loaded = load_scene_to_bake(job->scene);
     if (!loaded) return loaded.error();
+    session->earlier_warnings = loaded->warnings;
     const StopOnInterrupt stop;
-    BakeSession session = session_in(arguments.out, stop);
-    session.earlier_warnings = loaded->warnings;
+    session->stop = &stop.flag();
     const std::vector<std::filesystem::path> parts(arguments.parts.begin(), arguments.parts.end());
-    return finish_session(loaded->scene, *job, merge_bake(loaded->scene, *job, parts, session), session);
+    return finish_session(loaded->scene, *job, merge_bake(loaded->scene, *job, parts, *session), *session);
 }
 
 }  // namespace
@@ -32,7 +34,9 @@ Status merge_verb(const MergeArguments& arguments) {
 Verb add_merge(CLI::App& app) {
     auto arguments = std::make_shared<MergeArguments>();
     CLI::App* command = app.add_subcommand("merge", "Merge the shards of a bake");
-    command->add_option("PART", arguments->parts, "Folders of all shards of one bake")->required();
+    command
+        ->add_option("PART", arguments->parts, "Folders of all shards of one bake, which hold each pass exactly once")
+        ->required();
     command->add_option("-o,--out", arguments->out, "Output folder")->required();
     command->add_option("-t,--threads", arguments->threads, "Number of threads, 0: one per processor")
         ->check(CLI::Range(0u, 1024u))

@@ -29,6 +29,7 @@ class InputFile {
     [[nodiscard]] static Result<InputFile> open(const std::filesystem::path& path, const InputOptions& options = {});
 
     [[nodiscard]] const std::string& name() const { return name_; }
+    [[nodiscard]] const io::Descriptor& descriptor() const { return descriptor_; }
     /// Size in bytes when the file was opened.
     [[nodiscard]] std::uint64_t size() const { return size_; }
     /// Fills `target` with the bytes from `position` on; an error if the file ends before.

@@ -4,9 +4,11 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "bake/session/instruction_sets.h"
+#include "io/staged_file.h"
 #include "lobelia/result.h"
 
 namespace lobelia {
@@ -39,10 +41,16 @@ class RegionStates {
 
     /// Writes the file atomically and replaces an older one.
     [[nodiscard]] Status write(const std::filesystem::path& path);
+    [[nodiscard]] Status write(StagedFile& file);
     /// Errors name the file and what is wrong: cut off, damaged, of another version.
     [[nodiscard]] static Result<RegionStates> read(const std::filesystem::path& path);
+    /// Reads the header alone, without the checksum over the states.
+    [[nodiscard]] static Result<RegionHeader> read_header(const std::filesystem::path& path);
 
   private:
+    /// Returns the file's bytes, with the header in them.
+    [[nodiscard]] std::span<const std::byte> sealed();
+
     std::vector<float> storage_;
 };
 
@@ -50,8 +58,8 @@ class RegionStates {
 [[nodiscard]] inline std::filesystem::path checkpoint_folder(const std::filesystem::path& bake) {
     return bake / "checkpoint";
 }
-/// The error of starting afresh where a file of states is.
-[[nodiscard]] Error earlier_checkpoint(const std::filesystem::path& region_file);
-[[nodiscard]] std::filesystem::path region_file(const std::filesystem::path& folder, std::size_t region);
+[[nodiscard]] std::filesystem::path region_file(const std::filesystem::path& checkpoint, std::size_t region);
+/// Returns the names of the files of states in a bake's folder, relative to it.
+[[nodiscard]] std::vector<std::string> region_names(const std::filesystem::path& bake);
 
 }  // namespace lobelia

@@ -148,13 +148,16 @@ Result<ProbeDescription> probes_from_json(std::string_view text, const std::stri
     });
 }
 
-Result<ProbeSet> read_probes(const std::filesystem::path& path) {
-    const auto text = read_text(path, k_most_mebibytes);
+Result<ProbeSet> read_probes(const BakeFiles& files, const std::string& name) {
+    const auto path = files.checked(name);
+    if (!path) return path.error();
+    const auto text = read_text(*path, k_most_mebibytes);
     if (!text) return text.error();
-    auto description = probes_from_json(*text, path.string());
+    auto description = probes_from_json(*text, path->string());
     if (!description) return description.error();
-    if (auto status = read_coefficients(path.parent_path() / description->file, description->probes); !status)
-        return status.error();
+    const auto coefficients = files.checked(description->file);
+    if (!coefficients) return coefficients.error();
+    if (auto status = read_coefficients(*coefficients, description->probes); !status) return status.error();
     return std::move(description->probes);
 }
 

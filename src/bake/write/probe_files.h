@@ -1,10 +1,10 @@
 // Probes as two files: probes.json says what there is, probes.bin holds the coefficients, float32 little-endian.
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <string_view>
 
+#include "bake/write/bake_files.h"
 #include "io/staged_file.h"
 #include "lobelia/lightmap.h"
 
@@ -24,7 +24,7 @@ struct ProbeDescription {
 };
 [[nodiscard]] Result<ProbeDescription> probes_from_json(std::string_view text, const std::string& name);
 
-/// Both files, from the JSON file's path. Errors name the file and the place in it.
-[[nodiscard]] Result<ProbeSet> read_probes(const std::filesystem::path& path);
+/// Reads both files, by the name of the JSON file. Errors name the file and the place in it.
+[[nodiscard]] Result<ProbeSet> read_probes(const BakeFiles& files, const std::string& name);
 
 }  // namespace lobelia

@@ -9,6 +9,7 @@
 #include "bake/write/manifest.h"
 #include "bake/write/page_files.h"
 #include "core/storage/layout_text.h"
+#include "io/commit_journal.h"
 #include "io/read_file.h"
 #include "lobelia/storage.h"
 
@@ -16,14 +17,20 @@ namespace lobelia {
 namespace {
 
 constexpr std::uint64_t k_largest_side = 65536, k_most_pages = 4096, k_most_objects = 1u << 24, k_most_textures = 65536,
-                        k_most_warnings = 4096;
+                        k_most_warnings = 4096, k_most_files = std::uint64_t{1} << 20;
+
+std::uint64_t hexadecimal(const JsonPlace& place, std::size_t digits) {
+    const std::string text = place.text();
+    std::uint64_t value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value, 16);
+    if (text.size() != digits || error != std::errc() || end != text.data() + text.size())
+        place.refuse(fmt::format("not {} hexadecimal digits", digits));
+    return value;
+}
 
 void read_scene(const JsonPlace& scene, Manifest& m) {
     m.scene_name = scene.at("name").text();
-    const std::string hash = scene.at("hash").text();
-    const auto [end, error] = std::from_chars(hash.data(), hash.data() + hash.size(), m.scene_hash, 16);
-    if (hash.size() != 16 || error != std::errc() || end != hash.data() + hash.size())
-        scene.at("hash").refuse("not 16 hexadecimal digits");
+    m.scene_hash = hexadecimal(scene.at("hash"), 16);
     if (const auto file = scene.find("file")) m.scene = file->file_name();
     if (const auto file = scene.find("environment")) m.environment = file->file_name();
 }
@@ -153,6 +160,12 @@ void refuse_repeated_files(const JsonPlace& top, const Manifest& m) {
     if (m.probes) add(*m.probes);
 }
 
+FileEntry read_file_entry(const JsonPlace& place) {
+    FileEntry entry{place.at("file").file_name(), place.at("size").whole(0, k_any_u64 >> 1), 0};
+    entry.crc32 = static_cast<std::uint32_t>(hexadecimal(place.at("crc32"), 8));
+    return entry;
+}
+
 Manifest read_all(const JsonPlace& top) {
     if (!top.find("lobelia_bake")) top.refuse("no \"lobelia_bake\" version; is it from `lobelia bake`?");
     const auto version = top.at("lobelia_bake").whole(0, k_any_u32);
@@ -171,6 +184,8 @@ Manifest read_all(const JsonPlace& top) {
     if (const auto finish = top.find("finish"))
         for (const auto& step : finish->list(k_most_warnings)) m.finish.push_back(step.text());
     if (const auto probes = top.find("probes")) m.probes = probes->file_name();
+    if (const auto files = top.find("files"))
+        for (const auto& file : files->list(k_most_files)) m.files.push_back(read_file_entry(file));
     JsonFieldReader(top).group("options", m.options);
     JsonFieldReader(top).group("statistics", m.statistics);
     refuse_repeated_files(top, m);
@@ -188,12 +203,18 @@ std::filesystem::path bake_folder(const std::filesystem::path& path) {
     return std::filesystem::is_directory(path, code) ? path : path.parent_path();
 }
 
-Result<Manifest> read_manifest(const std::filesystem::path& path) {
+Result<ManifestText> read_manifest_text(const std::filesystem::path& path) {
     std::error_code code;
-    const auto file = std::filesystem::is_directory(path, code) ? path / k_manifest_name : path;
-    const auto text = read_text(file, 1024);
-    if (!text) return text.error();
-    return manifest_from_json(*text, file.string());
+    const std::string name = std::filesystem::is_directory(path, code) ? k_manifest_name : path.filename().string();
+    const auto folder = CommittedFolder::open(bake_folder(path));
+    if (!folder) return folder.error();
+    auto text = read_text(folder->path(name), 1024);
+    return text ? Result<ManifestText>({*std::move(text), (bake_folder(path) / name).string()}) : text.error();
+}
+
+Result<Manifest> read_manifest(const std::filesystem::path& path) {
+    const auto text = read_manifest_text(path);
+    return text ? manifest_from_json(text->text, text->name) : text.error();
 }
 
 }  // namespace lobelia

@@ -22,6 +22,10 @@ ordered_json to_json(const TextureEntry& texture) {
     return json;
 }
 
+ordered_json to_json(const FileEntry& entry) {
+    return {{"file", entry.file}, {"size", entry.size}, {"crc32", fmt::format("{:08x}", entry.crc32)}};
+}
+
 ordered_json to_json(const PageEntry& page) {
     ordered_json textures = ordered_json::array();
     for (const auto& texture : page.textures) textures.push_back(to_json(texture));
@@ -79,8 +83,9 @@ Manifest make_manifest(const Scene& scene, const Atlas& atlas, const BakeOptions
 
 std::string to_json_text(const Manifest& m) {
     const CodecName name = m.options.codec.empty() ? CodecName{} : parse_codec_name(m.options.codec).value();
-    ordered_json pages = ordered_json::array(), objects = ordered_json::array();
+    ordered_json pages = ordered_json::array(), objects = ordered_json::array(), files = ordered_json::array();
     for (const auto& page : m.pages) pages.push_back(to_json(page));
+    for (const auto& file : m.files) files.push_back(to_json(file));
     for (const auto& object : m.objects) objects.push_back(to_json(object, m));
     const ordered_json document = {{"lobelia_bake", k_bake_version},
                                    {"program", m.program},
@@ -106,6 +111,7 @@ std::string to_json_text(const Manifest& m) {
                                      {"pages", std::move(pages)}}},
                                    {"objects", std::move(objects)},
                                    {"probes", or_null(m.probes)},
+                                   {"files", std::move(files)},
                                    {"options", all_fields(m.options)},
                                    {"finish", m.finish},
                                    {"statistics", all_fields(m.statistics)}};

@@ -34,8 +34,8 @@ class FittedGaussians final : public FittedBasis {
     [[nodiscard]] std::shared_ptr<const SpecularEvaluator> specular(std::string_view name) const override;
     [[nodiscard]] Rotated rotated(const Rotation& r, std::span<const Rgb> c) const override;
 
-    /// The lobes that coefficients stand for, and their amplitudes. A sharpness above 10000 counts as that; a lobe whose
-    /// axis or sharpness is not finite has an amplitude of NaN.
+    /// The lobes that coefficients stand for, and their amplitudes. A sharpness above 10000 counts as that; a lobe
+    /// whose axis or sharpness is not finite has an amplitude of NaN.
     struct Lobes {
         std::vector<gaussian::Lobe> lobes;
         std::vector<Rgb> amplitudes;
