@@ -2,7 +2,6 @@
 #include "lobelia/bake.h"
 
 #include <fmt/format.h>
-#include <tbb/task_arena.h>
 
 #include "bake/finish/finish.h"
 #include "bake/finish/steps.h"
@@ -12,6 +11,7 @@
 #include "bake/session/merge.h"
 #include "bake/session/regions.h"
 #include "bake/solve/solve.h"
+#include "bake/with_threads.h"
 #include "bake/write/job_file.h"
 #include "bake/write/manifest.h"
 #include "bake/write/page_textures.h"
@@ -153,13 +153,6 @@ Status write(BakeWork& work, const BakeJob& job, const BakeSession& session) {
     return Done{};
 }
 
-/// Runs `work` with the job's number of threads.
-template <class Work>
-auto with_threads(const BakeJob& job, const Work& work) {
-    tbb::task_arena arena(job.bake.threads == 0 ? tbb::task_arena::automatic : static_cast<int>(job.bake.threads));
-    return arena.execute(work);
-}
-
 /// An error if the folder cannot be written to, or holds states that a fresh start would replace.
 Status check_session(const BakeSession& session) {
     if (session.folder.empty()) return Done{};
@@ -174,7 +167,7 @@ Status check_session(const BakeSession& session) {
 
 Result<Bake> bake(const Scene& scene, const BakeJob& job, BakeSession& session) {
     if (auto status = check_session(session); !status) return status.error();
-    return with_threads(job, [&]() -> Result<Bake> {
+    return with_threads(job.bake.threads, [&]() -> Result<Bake> {
         // Place texels on pages and in the world.
         auto work = place(scene, job, session);
         if (!work) return work.error();
@@ -214,7 +207,7 @@ Result<Bake> rebake_object(const Scene& scene, const BakeJob& job, std::string_v
                            BakeSession& session) {
     BakeJob of_object = job;
     of_object.bake.only_object = std::string(object);
-    return with_threads(job, [&]() -> Result<Bake> {
+    return with_threads(job.bake.threads, [&]() -> Result<Bake> {
         // Place, gather and solve the texels of the object alone, without a checkpoint.
         auto work = place(scene, of_object, session);
         if (!work) return work.error();
@@ -241,7 +234,7 @@ Result<Bake> rebake_object(const Scene& scene, const BakeJob& job, std::string_v
 }
 
 Result<Preflight> preflight(const Scene& scene, const BakeJob& job) {
-    return with_threads(job, [&]() -> Result<Preflight> {
+    return with_threads(job.bake.threads, [&]() -> Result<Preflight> {
         if (const auto textures = PageTextures::make(job.bake.codec, job.storages); !textures) return textures.error();
         const auto setup = BakeSetup::make(scene, job.bake);
         if (!setup) return setup.error();

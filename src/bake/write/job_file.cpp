@@ -8,6 +8,7 @@
 #include "bake/write/page_files.h"
 #include "bake/write/stored_codec.h"
 #include "io/folders.h"
+#include "io/printable.h"
 #include "io/read_file.h"
 
 namespace lobelia {
@@ -92,11 +93,15 @@ void fields(auto& archive, BakeJob& job) {
 }
 
 Status save_job(const std::filesystem::path& checkpoint, const BakeJob& job) {
+    // JSON holds UTF-8 only, and a path must come back byte by byte.
+    for (const std::string& path : {job.scene.path, job.scene.environment.value_or("")})
+        if (!is_utf8(path))
+            return Error{path + ": a bake cannot be continued with a path that is not UTF-8; rename the file"};
     JsonFieldWriter writer;
     writer.whole("lobelia_bake_job", k_version, 0, k_version);
     BakeJob copy = job;
     fields(writer, copy);
-    const std::string text = writer.object.dump(1) + "\n";
+    const std::string text = json_text(writer.object, 1) + "\n";
     const FileContent file{job_file(checkpoint), text};
     return write_into_folder(checkpoint, {&file, 1});
 }
