@@ -2,7 +2,6 @@
 #include "lobelia/bake.h"
 
 #include <fmt/format.h>
-#include <tbb/task_arena.h>
 
 #include "bake/check_job.h"
 #include "bake/finish/finish.h"
@@ -14,6 +13,7 @@
 #include "bake/session/merge.h"
 #include "bake/session/regions.h"
 #include "bake/solve/solve.h"
+#include "bake/with_threads.h"
 #include "bake/write/bake_folder.h"
 #include "bake/write/job_file.h"
 #include "bake/write/manifest.h"
@@ -189,10 +189,9 @@ Status drop_states(FilesTogether& files, const BakeJob& job, std::string_view ob
 
 /// Checks the job, and runs `work` with its number of threads.
 template <class Work>
-auto with_threads(const BakeJob& job, const Work& work) -> decltype(work()) {
+auto run_checked(const BakeJob& job, const Work& work) -> decltype(work()) {
     if (auto status = check(job); !status) return status.error();
-    tbb::task_arena arena(job.bake.threads == 0 ? tbb::task_arena::automatic : static_cast<int>(job.bake.threads));
-    return arena.execute(work);
+    return with_threads(job.bake.threads, work);
 }
 
 /// Returns the session with its folder locked, if it has one.
@@ -256,7 +255,7 @@ Status merge_into(const Scene& scene, const BakeJob& job, std::span<const fs::pa
 }  // namespace
 
 Result<Bake> bake(const Scene& scene, const BakeJob& job, BakeSession& session) {
-    return with_threads(job, [&]() -> Result<Bake> {
+    return run_checked(job, [&]() -> Result<Bake> {
         const auto holder = locked(session);
         return holder ? run(scene, job, *holder) : holder.error();
     });
@@ -264,7 +263,7 @@ Result<Bake> bake(const Scene& scene, const BakeJob& job, BakeSession& session) 
 
 Result<Bake> merge_bake(const Scene& scene, const BakeJob& job, std::span<const fs::path> shards,
                         BakeSession& session) {
-    return with_threads(job, [&]() -> Result<Bake> {
+    return run_checked(job, [&]() -> Result<Bake> {
         auto holder = locked(session);
         if (!holder) return holder.error();
         if (auto status = merge_into(scene, job, shards, *holder); !status) return status.error();
@@ -280,7 +279,7 @@ Result<Bake> rebake_object(const Scene& scene, const BakeJob& job, std::string_v
         if (auto status = check_folder(session.folder); !status) return status.error();
     BakeJob of_object = job;
     of_object.bake.only_object = std::string(object);
-    return with_threads(job, [&]() -> Result<Bake> {
+    return run_checked(job, [&]() -> Result<Bake> {
         if (auto status = check_same_options(there.manifest, job); !status) return status.error();
         const auto holder = locked(session);
         if (!holder) return holder.error();
@@ -306,7 +305,7 @@ Result<Bake> rebake_object(const Scene& scene, const BakeJob& job, std::string_v
 }
 
 Result<Preflight> preflight(const Scene& scene, const BakeJob& job) {
-    return with_threads(job, [&]() -> Result<Preflight> {
+    return run_checked(job, [&]() -> Result<Preflight> {
         if (auto status = check_textures(job); !status) return status.error();
         const auto setup = BakeSetup::make(scene, job.bake);
         if (!setup) return setup.error();

@@ -14,7 +14,7 @@ namespace {
 
 /// Prints the preflight, and writes a picture of each page.
 Status print_preflight(const Preflight& checked, const Scene& scene, const std::string& out) {
-    fmt::print("{}", to_text(checked, scene));
+    print_text(to_text(checked, scene));
     std::vector<std::string> pictures;
     std::vector<FileContent> files;
     for (std::size_t page = 0; page < checked.pages.size(); ++page) {
@@ -25,7 +25,7 @@ Status print_preflight(const Preflight& checked, const Scene& scene, const std::
     for (std::size_t page = 0; page < pictures.size(); ++page)
         files.push_back({std::filesystem::path(out) / fmt::format("preflight-{}.png", page), pictures[page]});
     if (auto status = write_into_folder(out, files); !status) return status;
-    for (const FileContent& file : files) fmt::print("{}\n", file.path.string());
+    for (const FileContent& file : files) print_line(file.path.string());
     return Done{};
 }
 

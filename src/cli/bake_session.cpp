@@ -27,10 +27,10 @@ std::function<void(const BakeProgress&)> progress_line() {
 void print_summary(const Bake& bake) {
     const BakeStatistics& s = bake.manifest.statistics;
     const BakeOptions& options = bake.manifest.options;
-    fmt::print("{} on {} of {}x{}, {} each{}\n", counted(s.texels, "texel"), counted(bake.pages.size(), "page"),
+    print_line("{} on {} of {}x{}, {} each{}", counted(s.texels, "texel"), counted(bake.pages.size(), "page"),
                bake.manifest.width, bake.manifest.height, counted(s.samples, "sample"),
                options.target_error ? " at most" : "");
-    fmt::print("{:.1f} million rays in {:.2f} s, {:.1f} Mray/s\n", static_cast<double>(s.rays) * 1e-6, s.seconds,
+    print_line("{:.1f} million rays in {:.2f} s, {:.1f} Mray/s", static_cast<double>(s.rays) * 1e-6, s.seconds,
                s.seconds > 0 ? static_cast<double>(s.rays) * 1e-6 / s.seconds : 0);
     const std::string error =
         s.samples > options.samples_per_pass ? fmt::format("{:.2f} %", 100 * s.mean_error) : "unknown after one pass";
@@ -38,11 +38,11 @@ void print_summary(const Bake& bake) {
         s.invalid_texels == 0
             ? "no invalid texels"
             : fmt::format("{}, {} under other surfaces", counted(s.invalid_texels, "invalid texel"), s.buried_texels);
-    fmt::print("standard error of E {}, leaks {:.2f} %, {}\n", error, 100 * s.back_face_share, invalid);
+    print_line("standard error of E {}, leaks {:.2f} %, {}", error, 100 * s.back_face_share, invalid);
     if (!options.codec.empty())
-        fmt::print("codec irradiance error {:.2f} % RMS; {:.2f} % of evaluations negative; ringing {:.2f} %\n",
+        print_line("codec irradiance error {:.2f} % RMS; {:.2f} % of evaluations negative; ringing {:.2f} %",
                    100 * s.codec_error, 100 * s.negative_share, 100 * s.ringing);
-    if (bake.probes) fmt::print("{}\n", counted(bake.probes->size(), "probe"));
+    if (bake.probes) print_line(counted(bake.probes->size(), "probe"));
 }
 
 Status stopped(BakeSession& session, const BakeOptions& options) {
@@ -86,11 +86,11 @@ Status finish_session(const Scene& scene, const BakeJob& job, const Result<Bake>
                                    : Status(Done{});
     if (!status) return status.error().kind == Error::Kind::stopped ? stopped(session, job.bake) : status;
     if (job.bake.shard.count > 1) {
-        fmt::print("part {} of {} is done: {}\n", job.bake.shard.index, job.bake.shard.count, out);
+        print_line("part {} of {} is done: {}", job.bake.shard.index, job.bake.shard.count, out);
         return Done{};
     }
     print_summary(*baked);
-    fmt::print("{}\n", (session.folder / (report ? k_report_name : k_manifest_name)).string());
+    print_line((session.folder / (report ? k_report_name : k_manifest_name)).string());
     return Done{};
 }
 

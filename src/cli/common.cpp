@@ -1,4 +1,4 @@
-// Grid sizes, messages, progress.
+// Grid sizes, progress.
 #include "cli/common.h"
 
 #include <fmt/core.h>
@@ -6,6 +6,8 @@
 
 #include <charconv>
 #include <chrono>
+
+#include "io/printable.h"
 
 namespace lobelia::cli {
 
@@ -23,11 +25,6 @@ Result<LatLong> parse_grid(const std::string& text) {
     return grid;
 }
 
-void complain(const std::string& line) {
-    std::fputs((line + "\n").c_str(), stderr);
-    std::fflush(stderr);
-}
-
 LabelledProgress labelled_progress_bar() {
     if (isatty(STDERR_FILENO) == 0) return {};
     const auto start = std::chrono::steady_clock::now();
@@ -36,8 +33,8 @@ LabelledProgress labelled_progress_bar() {
         if (seconds < 1 || (done >= 1 && !shown)) return;
         constexpr int width = 40;
         const int filled = static_cast<int>(done * width);
-        std::string line =
-            fmt::format("\r[{:=<{}}{: <{}}] {:3.0f} % {}\033[K", "", filled, "", width - filled, 100 * done, text);
+        std::string line = fmt::format("\r[{:=<{}}{: <{}}] {:3.0f} % {}\033[K", "", filled, "", width - filled,
+                                       100 * done, printable(text));
         if (done >= 1 - 1e-9) line += "\r\033[K";
         std::fputs(line.c_str(), stderr);
         std::fflush(stderr);

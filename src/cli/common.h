@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "cli/output.h"
 #include "io/folders.h"
 #include "io/read_file.h"
 #include "io/write_file.h"
@@ -15,9 +16,6 @@ namespace lobelia::cli {
 
 /// Parses "256x128" as a grid of at least 1 x 1 and at most 2^26 texels.
 [[nodiscard]] Result<LatLong> parse_grid(const std::string& text);
-
-/// Prints a line on stderr; if stderr is closed, the line is lost and nothing else changes.
-void complain(const std::string& line);
 
 /// A bar on stderr for work that takes longer than a second; null if stderr is not a terminal.
 [[nodiscard]] Progress progress_bar();

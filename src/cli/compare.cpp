@@ -1,6 +1,4 @@
 // lobelia compare: codecs on an environment, as an HTML report and a JSON file.
-#include <fmt/core.h>
-
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -9,6 +7,7 @@
 #include "cli/lobe_files.h"
 #include "cli/options.h"
 #include "cli/verbs.h"
+#include "io/json.h"
 #include "measure/compare_job.h"
 #include "measure/comparison_text.h"
 #include "report/comparison_report.h"
@@ -29,12 +28,13 @@ struct CompareArguments {
 Status write_report(const CompareArguments& arguments, const Comparison& comparison, const EnvironmentInfo& info) {
     const std::filesystem::path folder = arguments.out;
     const auto report = to_json(comparison, info);
-    const std::string text = report.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+    const std::string text = json_text(report, 1) + "\n";
     const std::string html = arguments.json_only ? "" : comparison_html(report, to_pictures(comparison));
     std::vector<FileContent> files = {{folder / "report.json", text}};
     if (!arguments.json_only) files.push_back({folder / "report.html", html});
     if (auto status = write_into_folder(folder, files); !status) return status;
-    fmt::print("{}{}{}\n", summary_text(comparison), stored_text(comparison), files.back().path.string());
+    print_text(summary_text(comparison) + stored_text(comparison));
+    print_line(files.back().path.string());
     return Done{};
 }
 

@@ -1,15 +1,16 @@
 // The lobelia command: chooses the verb, prints errors, returns 0, or 2 for bad input.
-#include <fmt/core.h>
-
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <exception>
+#include <new>
+#include <sstream>
 #include <system_error>
 
 #include <CLI/CLI.hpp>
 
-#include "cli/common.h"
+#include "cli/output.h"
 #include "cli/verbs.h"
 #include "lobelia/simd.h"
 
@@ -58,8 +59,15 @@ int run(CLI::App& app, const std::vector<lobelia::cli::Verb>& verbs, int argc, c
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
-        if (error.get_exit_code() == 0) return app.exit(error);
-        lobelia::cli::complain(fmt::format("lobelia: {}\nRun with -h for the options.", error.what()));
+        if (error.get_exit_code() == 0) {
+            // Help, or the version.
+            std::ostringstream text;
+            app.exit(error, text, text);
+            lobelia::cli::print_text(text.str());
+            return 0;
+        }
+        lobelia::cli::complain(std::string("lobelia: ") + error.what());
+        lobelia::cli::complain("Run with -h for the options.");
         return k_bad_input;
     }
     if (const auto status = choose_simd_target(); !status) {
@@ -72,7 +80,7 @@ int run(CLI::App& app, const std::vector<lobelia::cli::Verb>& verbs, int argc, c
         if (!status) lobelia::cli::complain("lobelia: " + status.error().message);
         return status ? 0 : k_bad_input;
     }
-    fmt::print("{}", k_short_help);
+    lobelia::cli::print_text(k_short_help);
     return 0;
 }
 
@@ -98,16 +106,17 @@ int main(int argc, char** argv) {
 
     try {
         const int code = run(app, verbs, argc, argv);
-        if (std::fflush(stdout) != 0) throw std::system_error(errno, std::generic_category(), "standard output");
+        lobelia::cli::flush_output();
         return code;
-    } catch (const std::system_error& error) {
+    } catch (const lobelia::cli::OutputFailure& failure) {
         // The reader closed the pipe: success.
-        if (error.code() == std::errc::broken_pipe) return 0;
-        lobelia::cli::complain(std::string("lobelia: ") + error.what());
+        if (failure.code == EPIPE) return 0;
+        lobelia::cli::complain(std::string("lobelia: ") + failure.what());
     } catch (const std::bad_alloc&) {
         lobelia::cli::complain("lobelia: not enough memory");
     } catch (const std::exception& error) {
-        lobelia::cli::complain(std::string("lobelia: ") + error.what());
+        lobelia::cli::complain(std::string("lobelia: an internal error; please report it, with the command: ") +
+                               error.what());
     }
     return k_bad_input;
 }

@@ -100,9 +100,11 @@ Result<std::string> run_script(const UnwrapArguments& options, const std::filesy
     arguments["texelsPerMetre"] =
         options.texels_per_metre ? nlohmann::json(*options.texels_per_metre) : nlohmann::json();
     const std::string script = (folder / "unwrap.mjs").string();
-    const std::string in = std::filesystem::absolute(options.in).string();
-    auto finished =
-        run_program({"node", script, in, file.string(), arguments.dump()}, std::chrono::seconds(options.timeout), stop);
+    std::error_code code;
+    const std::string in = std::filesystem::absolute(options.in, code).string();
+    if (code) return Error{fmt::format("{}: {}", options.in, code.message())};
+    auto finished = run_program({"node", script, in, file.string(), json_text(arguments)},
+                                std::chrono::seconds(options.timeout), stop);
     if (!finished) return Error{options.in + ": " + finished.error().message};
     if (finished->code != 0) {
         const std::string& said = finished->err;
@@ -147,7 +149,7 @@ Status unwrap(const UnwrapArguments& options, const std::atomic<bool>& stop) {
     const auto bytes = read_file(file, k_most_bytes);
     if (!bytes) return bytes.error();
     if (const auto status = write_file_atomically(options.out, *bytes); !status) return status;
-    fmt::print("{}\n", *description);
+    print_line(*description);
     return Done{};
 }
 

@@ -8,6 +8,7 @@
 #include "coefficients/coefficient_file.h"
 #include "coefficients/convention_file.h"
 #include "core/math/harmonics.h"
+#include "io/json.h"
 
 namespace lobelia {
 namespace {
@@ -75,9 +76,7 @@ Result<Converted> convert(std::string_view text, const std::string& name, const 
     if (c.size() > harmonics::coefficient_count(convention.degree))
         result.warnings.push_back(
             fmt::format("{}: {} has no degrees above {}; they are left out", name, convention.name, convention.degree));
-    result.text =
-        to_json(convention, exported(convention, c)).dump(1, ' ', false, nlohmann::json::error_handler_t::replace) +
-        "\n";
+    result.text = json_text(to_json(convention, exported(convention, c)), 1) + "\n";
     return result;
 }
 

@@ -45,7 +45,7 @@ Result<Picture> decode_webp(std::span<const std::byte> bytes, std::string_view n
     if (!size) return size.error();
 
     // Decode into the texels.
-    std::vector<Rgba8> texels(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+    auto texels = filled<Rgba8>(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), options);
     config.output.colorspace = MODE_RGBA;
     config.output.is_external_memory = 1;
     config.output.u.RGBA.rgba = texels.data()->data();

@@ -126,6 +126,13 @@ template <class Read>
     }
 }
 
+/// The text of a JSON value, on one line unless `indent` is 0 or more. Bytes of its strings that are not UTF-8 become
+/// U+FFFD. Requires <nlohmann/json.hpp>.
+template <class Json>
+[[nodiscard]] std::string json_text(const Json& value, int indent = -1) {
+    return value.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
 /// A float as the double with the shortest decimal text that reads back as the float.
 [[nodiscard]] double shortest(float value);
 

@@ -225,6 +225,7 @@ class global_control {
     enum parameter { max_allowed_parallelism };
     global_control(parameter, std::size_t threads) : before_(by_threads::global_limit.exchange(threads)) {}
     ~global_control() { by_threads::global_limit = before_; }
+    static std::size_t active_value(parameter) { return by_threads::global_limit; }
     global_control(const global_control&) = delete;
     global_control& operator=(const global_control&) = delete;
 

@@ -4,8 +4,10 @@
 
 #include <fstream>
 
+#include "data.h"
 #include "gltf_reading.h"
 #include "io/read_picture.h"
+#include "picture_files.h"
 #include "same_scenes.h"
 
 namespace lobelia {
@@ -113,6 +115,27 @@ TEST(BadGltf, PlaceIsNamed) {
     expect_error("nodes[4].extensions.KHR_lights_punctual.light: not an index below 3",
                  [](F& f) { f.root["nodes"][4]["extensions"]["KHR_lights_punctual"]["light"] = 3; });
     expect_error("cameras[0].perspective.yfov", [](F& f) { f.root["cameras"][0]["perspective"]["yfov"] = 4; });
+}
+
+TEST(BadGltf, DamagedTextures) {
+    const std::string jpeg = make_jpeg(test_picture(19, 10));
+    for (const auto& [bytes, reason] :
+         {std::pair{jpeg_without(jpeg, 0xc4), "images[0]: damaged or unsupported JPEG: a scan names a Huffman table"},
+          {jpeg_without(jpeg, 0xdb), "images[0]: damaged or unsupported JPEG: "},
+          {jpeg.substr(0, jpeg.size() / 2), "images[0]: damaged or unsupported JPEG: the file ends too early"},
+          {make_png(19, 10).bytes.substr(0, 90), "images[0]: damaged PNG: the file ends too early"},
+          {make_webp(test_picture(19, 10)).substr(0, 60), "images[0]: damaged WebP: "},
+          {std::string("BM123456"), "images[0]: a BMP picture, which is not read"}})
+        expect_error(reason, [&](GltfFile& f) {
+            f.root["images"][0]["bufferView"] = f.view(std::string_view(bytes));
+            f.root["images"][0].erase("mimeType");
+        });
+    // A scan that names tables which were never defined, in a real file.
+    const auto file = test::cases_folder() / "jpeg-oob.glb";
+    if (!std::filesystem::exists(file)) return;
+    const auto loaded = read_gltf(file);
+    ASSERT_FALSE(loaded);
+    EXPECT_TRUE(says(loaded.error().message, "JPEG"));
 }
 
 TEST(BadGltf, NumbersThatAreNone) {

@@ -9,6 +9,7 @@
 #include "bake/preflight/preflight.h"
 #include "core/math/colour.h"
 #include "io/counted.h"
+#include "io/printable.h"
 
 namespace lobelia {
 namespace {
@@ -139,7 +140,7 @@ std::string to_text(const Preflight& p, const Scene& scene) {
         fmt::format("memory: {} (states {}, pages {}, texels {}, finishing {})\n", bytes(p.memory.total()),
                     bytes(p.memory.states), bytes(p.memory.pages), bytes(p.memory.texels), bytes(p.memory.finishing));
     if (p.seconds) text += fmt::format("time: about {}\n", duration(*p.seconds));
-    for (const std::string& warning : warnings(p, scene)) text += "warning: " + warning + '\n';
+    for (const std::string& warning : warnings(p, scene)) text += "warning: " + printable(warning) + '\n';
     return text;
 }
 

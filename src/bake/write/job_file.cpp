@@ -9,6 +9,7 @@
 #include "bake/write/page_files.h"
 #include "io/commit_journal.h"
 #include "io/folders.h"
+#include "io/printable.h"
 #include "io/read_file.h"
 
 namespace lobelia {
@@ -101,10 +102,14 @@ std::string to_json_text(const KeptJob& kept) {
     JsonFieldWriter writer;
     KeptJob copy = kept;
     fields(writer, copy);
-    return writer.object.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+    return json_text(writer.object, 1) + "\n";
 }
 
 Status save_job(const std::filesystem::path& folder, const BakeJob& job) {
+    // JSON holds UTF-8 only, and a path must come back byte by byte.
+    for (const std::string& path : {job.scene.path, job.scene.environment.value_or("")})
+        if (!is_utf8(path))
+            return Error{path + ": a bake cannot be continued with a path that is not UTF-8; rename the file"};
     const std::string text = to_json_text(KeptJob{job, {}});
     const FileContent file{folder / k_job_name, text};
     return write_into_folder(checkpoint_folder(folder), {&file, 1});

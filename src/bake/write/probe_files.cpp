@@ -128,7 +128,7 @@ std::string to_json_text(const ProbeSet& probes, std::string_view binary_file) {
                                    {"validity", singles(probes.validity)},
                                    {"back_faces", singles(probes.back_faces)},
                                    {"cells", std::move(cells)}};
-    return document.dump(-1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+    return json_text(document) + "\n";
 }
 
 Status write_probe_coefficients(StagedFile& file, const ProbeSet& probes) {

@@ -115,7 +115,7 @@ std::string to_json_text(const Manifest& m) {
                                    {"options", all_fields(m.options)},
                                    {"finish", m.finish},
                                    {"statistics", all_fields(m.statistics)}};
-    return document.dump(1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+    return json_text(document, 1) + "\n";
 }
 
 }  // namespace lobelia

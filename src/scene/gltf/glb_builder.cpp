@@ -5,6 +5,8 @@
 #include <cstring>
 #include <limits>
 
+#include "io/json.h"
+
 namespace lobelia::gltf {
 namespace {
 
@@ -91,7 +93,7 @@ Result<std::string> GlbBuilder::finish() {
     if (!extensions_.empty()) root_["extensionsUsed"] = extensions_;
     pad(binary_, '\0');
     if (!binary_.empty()) root_["buffers"] = json::array({{{"byteLength", binary_.size()}}});
-    std::string text = root_.dump(-1, ' ', false, json::error_handler_t::replace);
+    std::string text = json_text(root_);
     pad(text, ' ');
 
     // Write a header of 12 bytes, then each chunk after its length and type.
