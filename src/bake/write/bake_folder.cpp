@@ -1,6 +1,7 @@
 // A bake as a folder: all files are written together, and read again.
 #include <fmt/format.h>
 
+#include <cassert>
 #include <cmath>
 
 #include "bake/write/bake_fields.h"
