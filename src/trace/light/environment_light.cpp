@@ -1,6 +1,7 @@
 // Sampling tables over the environment's texels.
 #include "trace/light/environment_light.h"
 
+#include <cassert>
 #include <cmath>
 #include <numeric>
 
