@@ -47,21 +47,22 @@ ContractHandler set_contract_handler(ContractHandler handler);
 /// Calls the handler, then aborts.
 [[noreturn]] void contract_violated(std::string message, SourcePlace place = SourcePlace::here());
 
+/// Reports a count outside [lowest, highest].
+[[noreturn]] void count_violated(const char* what, std::size_t found, std::size_t lowest, std::size_t highest,
+                                 SourcePlace place);
+
 /// Compares a count with the one required; kept in release builds.
 inline void check_equal(const char* what, std::size_t found, std::size_t required,
                         SourcePlace place = SourcePlace::here()) {
     if (found != required) [[unlikely]]
-        contract_violated(std::string(what) + ": " + std::to_string(found) + ", must be " + std::to_string(required),
-                          place);
+        count_violated(what, found, required, required, place);
 }
 
 /// The same for a count in [lowest, highest].
 inline void check_range(const char* what, std::size_t found, std::size_t lowest, std::size_t highest,
                         SourcePlace place = SourcePlace::here()) {
     if (found < lowest || found > highest) [[unlikely]]
-        contract_violated(std::string(what) + ": " + std::to_string(found) + ", must be " + std::to_string(lowest) +
-                              " to " + std::to_string(highest),
-                          place);
+        count_violated(what, found, lowest, highest, place);
 }
 
 }  // namespace lobelia

@@ -31,4 +31,11 @@ void contract_violated(std::string message, SourcePlace place) {
     std::abort();
 }
 
+void count_violated(const char* what, std::size_t found, std::size_t lowest, std::size_t highest, SourcePlace place) {
+    std::string message(what);
+    message.append(": ").append(std::to_string(found)).append(", must be ").append(std::to_string(lowest));
+    if (highest != lowest) message.append(" to ").append(std::to_string(highest));
+    contract_violated(std::move(message), place);
+}
+
 }  // namespace lobelia

@@ -43,9 +43,9 @@ Result<FileHeader> read_start(const InputFile& file) {
     if (const Status status = file.read(0, begin); !status) return status.error();
     std::memcpy(&start, begin.data(), sizeof start);
     if (start.magic != k_magic) return bad("this is not a checkpoint of Lobelia");
-    if (start.version != k_version)
-        return bad(
-            fmt::format("this checkpoint has version {}; this program reads version {}", start.version, k_version));
+    if (start.version != k_checkpoint_version)
+        return bad(fmt::format("this checkpoint has version {}; this program reads version {}", start.version,
+                               k_checkpoint_version));
     constexpr std::uint64_t most_floats = std::uint64_t{1} << 40;
     const RegionHeader& region = start.region;
     if (region.floats == 0 || region.sites > most_floats / region.floats ||

@@ -13,10 +13,6 @@ namespace {
 /// the file.
 constexpr std::size_t k_most_zeros = std::size_t{1} << 20;
 
-// accessor.componentType
-constexpr std::size_t k_byte = 5120, k_unsigned_byte = 5121, k_short = 5122, k_unsigned_short = 5123,
-                      k_unsigned_int = 5125, k_float = 5126;
-
 std::size_t size_of(std::size_t component_type) {
     switch (component_type) {
         case k_byte:

@@ -7,6 +7,10 @@
 
 namespace lobelia::gltf {
 
+/// Values of accessor.componentType.
+inline constexpr std::size_t k_byte = 5120, k_unsigned_byte = 5121, k_short = 5122, k_unsigned_short = 5123,
+                             k_unsigned_int = 5125, k_float = 5126;
+
 /// A view of an accessor's elements. Valid as long as the document is, and always within its buffers. Copies only the
 /// indices of a sparse accessor.
 class Accessor {

@@ -6,14 +6,14 @@
 #include <limits>
 
 #include "io/json.h"
+#include "scene/gltf/accessors.h"
 
 namespace lobelia::gltf {
 namespace {
 
 using nlohmann::json;
 
-constexpr int k_vertices = 34962, k_elements = 34963;                          // bufferView.target
-constexpr int k_unsigned_short = 5123, k_unsigned_int = 5125, k_float = 5126;  // accessor.componentType
+constexpr int k_vertices = 34962, k_elements = 34963;  // bufferView.target
 
 template <class T>
 std::string_view bytes_of(std::span<const T> values) {
