@@ -114,9 +114,9 @@ struct BakeSession {
 
 /// Bakes a scene: places texels on pages, gathers light for them, solves for coefficients, finishes the pages, writes
 /// them into the session's folder. The same bits for any number of threads, regions, sessions and tile shards, on one
-/// instruction set (simd.h); a mixture gives a warning. The bake of a shard (job.bake.shard.count > 1) has no pages: its
-/// states lie in the session's folder for merge_bake. Preconditions: the scene passes check_scene. Errors name what is
-/// wrong and the remedy; an early stop is an error.
+/// instruction set (simd.h); a mixture gives a warning. The bake of a shard (job.bake.shard.count > 1) has no pages:
+/// its states lie in the session's folder for merge_bake. Preconditions: the scene passes check_scene. Errors name what
+/// is wrong and the remedy; an early stop is an error.
 [[nodiscard]] Result<Bake> bake(const Scene& scene, const BakeJob& job, BakeSession& session);
 
 /// Merges the checkpoints of all shards of a job, given by their bakes' folders, into the session's folder, and
