@@ -1,5 +1,7 @@
 // Feeds any bytes to everything that takes a file of states: its reader, the merging of shards, resuming and solving.
 // The first byte says how much is made to fit. See CMakeLists.txt for how to run it.
+#include <cstring>
+
 #include "bake/session/checkpoint.h"
 #include "bake/session/merge.h"
 #include "bake/session/regions.h"
