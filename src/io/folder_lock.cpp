@@ -69,7 +69,7 @@ std::string owner_in(const io::Descriptor& file, const std::string& name) {
         read_json({text.data(), static_cast<std::size_t>(std::max<ssize_t>(0, size))}, name, [](const JsonPlace& top) {
             constexpr std::uint64_t k_latest = 253402300799;  // the end of the year 9999
             const auto since = static_cast<std::time_t>(top.at("seconds_since_1970").whole(0, k_latest));
-            return fmt::format("process {} on {}, since {:%F %T} UTC ({})", top.at("process").whole(0, 1u << 30),
+            return fmt::format("process {} on {}, since {:%F %T} UTC ({} ago)", top.at("process").whole(0, 1u << 30),
                                top.at("host").file_name(), fmt::gmtime(since), age(std::time(nullptr) - since));
         });
     return described ? *described : "another process";
