@@ -122,8 +122,8 @@ void evaluate_texels(benchmark::State& state, const Codec& codec) {
 }
 
 /// An item is one point: its own normal, view and roughness.
-void evaluate_gloss(benchmark::State& state, const std::shared_ptr<const Basis>& basis,
-                    const SpecularEvaluator& evaluator) {
+void evaluate_specular(benchmark::State& state, const std::shared_ptr<const Basis>& basis,
+                       const SpecularEvaluator& evaluator) {
     Accumulator accumulator(make_encoder(encoder_names(*basis).back(), basis).value());
     accumulator.add(samples_for(basis->domain(), 1024));
     const std::vector<Rgb> c = accumulator.solve();
@@ -242,11 +242,10 @@ void register_basis(const std::shared_ptr<const Basis>& basis) {
                                      [basis, evaluator = basis->evaluator(evaluator_name)](benchmark::State& s) {
                                          evaluate_irradiance(s, basis, *evaluator);
                                      });
-    for (const auto& gloss_name : specular_names(*basis))
-        benchmark::RegisterBenchmark(named("gloss", name + "/" + gloss_name, k_normals).c_str(),
-                                     [basis, gloss = make_specular(gloss_name, basis).value()](benchmark::State& s) {
-                                         evaluate_gloss(s, basis, *gloss);
-                                     });
+    for (const auto& specular_name : specular_names(*basis))
+        benchmark::RegisterBenchmark(named("specular", name + "/" + specular_name, k_normals).c_str(),
+                                     [basis, specular = make_specular(specular_name, basis).value()](
+                                         benchmark::State& s) { evaluate_specular(s, basis, *specular); });
 }
 
 /// Measures cost against the number of samples, for the first listed basis; register_basis() measures it against

@@ -1,4 +1,4 @@
-// From an environment to twelve coefficients, to irradiance, and how far off that is.
+// Encodes an environment into twelve coefficients, evaluates irradiance, and measures its error.
 #include <cstdio>
 
 #include "lobelia/lobelia.h"
@@ -20,7 +20,7 @@ int main() {
     Colours irradiance(normals.size());
     codec.irradiance(coefficients, normals, irradiance);
 
-    // Judge: against the exact irradiance of the same samples.
+    // Measure: against the exact irradiance of the same samples.
     Colours exact(normals.size());
     irradiance_sum(samples, normals, exact);
     const Errors wrong = errors(irradiance, exact, grid.solid_angles());

@@ -2,8 +2,11 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <span>
+#include <string_view>
 
 #include "io/read_image.h"
 
@@ -16,11 +19,23 @@ inline void require(bool holds) {
     if (!holds) std::abort();
 }
 
+/// The input as bytes and as text.
+inline std::span<const std::byte> bytes_of(const std::uint8_t* data, std::size_t size) {
+    return {reinterpret_cast<const std::byte*>(data), size};
+}
+inline std::string_view text_of(const std::uint8_t* data, std::size_t size) {
+    return {reinterpret_cast<const char*>(data), size};
+}
+
+/// Requires a result, or an error that says something.
+template <class T>
+bool check_result(const Result<T>& result) {
+    if (!result) require(!result.error().message.empty());
+    return static_cast<bool>(result);
+}
+
 inline void check_loaded(const Result<LoadedImage>& loaded) {
-    if (!loaded) {
-        require(!loaded.error().message.empty());
-        return;
-    }
+    if (!check_result(loaded)) return;
     const Image& image = loaded->image;
     require(image.width > 0 && image.height > 0 && image.pixels.size() == image.width * image.height);
     require(image.pixels.size() <= k_fuzz_options.most_pixels);

@@ -3,12 +3,11 @@
 #include "io/read_exr_channels.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    const std::span<const std::byte> bytes(reinterpret_cast<const std::byte*>(data), size);
-    lobelia::check_loaded(lobelia::read_exr(bytes, "fuzz", lobelia::k_fuzz_options));
-    const auto planes = lobelia::read_exr_channels(bytes, "fuzz", {.most_pixels = 1 << 16, .most_values = 1 << 18});
-    if (planes)
-        for (const auto& plane : planes->planes) lobelia::require(plane.size() == planes->width * planes->height);
-    else
-        lobelia::require(!planes.error().message.empty());
+    using namespace lobelia;
+    const auto bytes = bytes_of(data, size);
+    check_loaded(read_exr(bytes, "fuzz", k_fuzz_options));
+    const auto planes = read_exr_channels(bytes, "fuzz", {.most_pixels = 1 << 16, .most_values = 1 << 18});
+    if (check_result(planes))
+        for (const auto& plane : planes->planes) require(plane.size() == planes->width * planes->height);
     return 0;
 }

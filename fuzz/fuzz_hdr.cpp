@@ -2,7 +2,7 @@
 #include "check_loaded.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    const std::span<const std::byte> bytes(reinterpret_cast<const std::byte*>(data), size);
-    lobelia::check_loaded(lobelia::read_hdr(bytes, "fuzz", lobelia::k_fuzz_options));
+    using namespace lobelia;
+    check_loaded(read_hdr(bytes_of(data, size), "fuzz", k_fuzz_options));
     return 0;
 }

@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -39,10 +40,10 @@ struct BakeStatistics {
     double codec_error = 0;      ///< RMS over texels of E by the codec minus E by the paths, over the mean of E
 };
 
-/// A KTX2 texture of one page.
+/// A texture of one page.
 struct TextureEntry {
     std::string storage;            ///< one of storages()
-    std::string file;               ///< .ktx2, in the bake's folder
+    std::string file;               ///< in the bake's folder; its container is the extension
     TextureLayout::Texture layout;  ///< contents of its channels
     float scale = 1;                ///< multiply stored values by this first
 };
@@ -51,7 +52,14 @@ struct TextureEntry {
 struct PageEntry {
     std::string file;                     ///< .exr
     std::vector<TextureEntry> textures;   ///< sorted by storage
-    std::optional<std::string> validity;  ///< .ktx2, where there are textures
+    std::optional<std::string> validity;  ///< likewise, where there are textures
+};
+
+/// A file of the folder as it was written.
+struct FileEntry {
+    std::string file;
+    std::uint64_t size = 0;   ///< [bytes]
+    std::uint32_t crc32 = 0;  ///< as in zlib
 };
 
 /// An object of the scene and its place; in the scene's order, those without lightmap UVs included.
@@ -74,6 +82,7 @@ struct Manifest {
     std::vector<PageEntry> pages;  ///< filled in by write_bake
     std::vector<ObjectEntry> objects;
     std::optional<std::string> probes;  ///< file of the probes' description
+    std::vector<FileEntry> files;       ///< all but bake.json; filled in by write_bake; empty in older bakes
     BakeOptions options;                ///< all but memory and threads
     std::vector<std::string> finish;    ///< steps taken, in order: denoise, seams, dilate
     BakeStatistics statistics;
@@ -99,11 +108,22 @@ struct BakeProgress {
     std::uint32_t pass = 0, passes = 0;
 };
 
+/// The right to write into a folder, which one process has at a time. Destroying it gives it back; so does the end of
+/// the process, however it ends.
+class FolderLock;
+
+/// Locks a bake's folder, which is made if it is missing, completes there what a killed process left unfinished, and
+/// removes its temporary files. An error that names the owner if the folder is locked; an error if the checkpoint there
+/// is a symbolic link.
+[[nodiscard]] Result<std::shared_ptr<const FolderLock>> lock_folder(const std::filesystem::path& folder);
+
 /// One run of a job: where it keeps its states, how it is watched and stopped. Callbacks may come from any thread,
 /// never concurrently.
 struct BakeSession {
     /// Holds the checkpoint while the bake runs, and then the bake as write_bake leaves it. Empty: no files.
     std::filesystem::path folder;
+    /// The folder's lock, for callers that read there what the run depends on. Absent: each run takes its own.
+    std::shared_ptr<const FolderLock> lock = {};
     /// fresh: an error if the folder holds a checkpoint. resume: continue the checkpoint there, if there is one.
     enum class Start { fresh, resume } start = Start::fresh;
     const std::atomic<bool>* stop = nullptr;  ///< ends the run when it becomes true; the checkpoint stays
@@ -113,19 +133,23 @@ struct BakeSession {
 };
 
 /// Bakes a scene: places texels on pages, gathers light for them, solves for coefficients, finishes the pages, writes
-/// them into the session's folder. The same bits for any number of threads, regions, sessions and tile shards. The bake
-/// of a shard (job.bake.shard.count > 1) has no pages: its states lie in the session's folder for merge_bake.
-/// Preconditions: the scene passes check_scene. Errors name what is wrong and the remedy; an early stop is an error.
+/// them into the session's folder. The same bits for any number of threads, regions, sessions and tile shards, on one
+/// instruction set (simd.h); a mixture gives a warning. The bake of a shard (job.bake.shard.count > 1) has no pages:
+/// its states lie in the session's folder for merge_bake. Preconditions: the scene passes check_scene. Errors name what
+/// is wrong and the remedy: an option out of range, a folder in use; an early stop is an error. Resumed with more
+/// samples than the job in the folder, it is an error if the states there do not hold all of that job's.
 [[nodiscard]] Result<Bake> bake(const Scene& scene, const BakeJob& job, BakeSession& session);
 
 /// Merges the checkpoints of all shards of a job, given by their bakes' folders, into the session's folder, and
-/// finishes the bake there. Errors: a shard is missing, unfinished, given twice or of another bake. Precondition:
+/// finishes the bake there; if it is interrupted after the merging, bake() resumes it. Errors: the shards do not hold
+/// each pass of the job exactly once (one is missing, unfinished or given twice), or are of another bake. Precondition:
 /// job.bake.shard is that of a whole bake.
 [[nodiscard]] Result<Bake> merge_bake(const Scene& scene, const BakeJob& job,
                                       std::span<const std::filesystem::path> shards, BakeSession& session);
 
 /// Bakes the texels of one object again, in the scene as it is now, and replaces them in `there`, a finished bake of
-/// the same job. `object` is its name, or its index as "#3".
+/// the same job (an error otherwise). `object` is its name, or its index as "#3". The states in the session's folder
+/// are removed, as they do not hold the new texels: nothing can be resumed there afterwards.
 [[nodiscard]] Result<Bake> rebake_object(const Scene& scene, const BakeJob& job, std::string_view object, Bake there,
                                          BakeSession& session);
 
@@ -135,16 +159,19 @@ struct BakeSession {
 struct WriteBakeOptions {
     std::optional<std::vector<std::string>> storages = {};  ///< of the textures; absent: default_storages()
     const Scene* scene = nullptr;                           ///< also write a copy of the scene and its environment
+    std::string container = "ktx2";                         ///< file format of the textures
     const std::atomic<bool>* stop = nullptr;                ///< ends the writing early, with an error and no new file
 };
 
-/// Writes a folder: pages, textures, probes, at last bake.json; returns the manifest with the files' names. Every file
-/// is complete beside its place before the first one takes it. The folder is made if it is missing. Values that half
+/// Writes a folder: pages, textures, probes, bake.json; returns the manifest with the files' names and checksums. The
+/// files take their places in one step for readers, even if the process is killed meanwhile; files of an older bake
+/// there that this one does not have are removed. The folder is made if it is missing, and locked. Values that half
 /// floats cannot hold are written as floats, with a warning in the manifest; values that are not finite are an error.
 [[nodiscard]] Result<Manifest> write_bake(const std::filesystem::path& folder, const Bake& bake,
                                           const WriteBakeOptions& options = {});
 
-/// Reads a folder, or the bake.json in it. Opens no files outside the folder. Errors name the file and the place in it.
+/// Reads a folder, or the bake.json in it, and checks each file against its checksum. Opens no files outside the folder
+/// and writes none. Errors name the file and the place in it.
 [[nodiscard]] Result<Bake> read_bake(const std::filesystem::path& folder);
 
 /// Reads the scene of a bake in a folder: the copy there, or the embedded scene that was baked. Render it with

@@ -88,7 +88,8 @@ struct BakeJob {
     FinishOptions finish;
     std::optional<ProbeOptions> probes;                ///< absent: no probes
     Precision precision = Precision::half;             ///< of the pages; full where half cannot hold their values
-    std::optional<std::vector<std::string>> storages;  ///< of the KTX2 textures; absent: default_storages()
+    std::optional<std::vector<std::string>> storages;  ///< of the textures; absent: default_storages()
+    std::string container = "ktx2";                    ///< file format of the textures, and their extension
     ReportOptions report;
 };
 

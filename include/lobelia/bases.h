@@ -1,4 +1,4 @@
-// Bases as values, one function for each family: spherical_harmonics(2) rather than a name to be parsed.
+// Bases as values, one function per family: spherical_harmonics(2) instead of a name to parse.
 #pragma once
 
 #include "lobelia/basis.h"
@@ -9,7 +9,7 @@ namespace lobelia {
 /// Real spherical harmonics of degrees 0 to `degree`, 1 to 8: (degree + 1)^2 coefficients ("sh2").
 [[nodiscard]] std::shared_ptr<const LinearBasis> spherical_harmonics(std::size_t degree);
 
-/// One spherical Gaussian, exp(sharpness (w . axis - 1)): unit axis, sharpness 0 to 10000; sharpness 0 is the constant
+/// A spherical Gaussian, exp(sharpness (w . axis - 1)): unit axis, sharpness 0 to 10000; sharpness 0 is the constant
 /// function 1 (an ambient lobe).
 struct Lobe {
     Vec3 axis{0, 0, 1};
@@ -19,17 +19,19 @@ struct Lobe {
 
 struct GaussianOptions {
     Domain domain = Domain::sphere;
-    std::optional<float> sharpness = {};  ///< 0.01 to 10000, of every lobe; none: follows from their number
-    enum class Ambient { none, one } ambient = Ambient::none;  ///< a further lobe of sharpness 0; on the sphere only
+    std::optional<float> sharpness = {};  ///< 0.01 to 10000, the same for all lobes; absent: derived from their number
+    enum class Ambient { none, one } ambient = Ambient::none;  ///< adds a lobe of sharpness 0; on the sphere only
 };
-/// `count` spherical Gaussians on fixed axes, 1 to 512, spread along a spiral ("sg12", "sg12h", "sg12a", "sg12@5").
+/// Makes `count` spherical Gaussians on fixed axes, 1 to 512, spread along a spiral ("sg12", "sg12h", "sg12a",
+/// "sg12@5").
 [[nodiscard]] std::shared_ptr<const LinearBasis> spherical_gaussians(std::size_t count,
                                                                      const GaussianOptions& options = {});
-/// The same of given lobes, 1 to 512. Its name holds the lobes: make_basis(name) makes the same basis again.
+/// Makes a basis of the given lobes, 1 to 512. Its name contains the lobes: make_basis(name) makes the same basis
+/// again.
 [[nodiscard]] std::shared_ptr<const LinearBasis> spherical_gaussians(std::vector<Lobe> lobes,
                                                                      Domain domain = Domain::sphere);
-/// Lobes from text: a line "x y z sharpness" each (the axis is normalised), or "ambient"; # starts a comment. Errors
-/// name `source` and the line.
+/// Parses lobes: lines "x y z sharpness" (the axis is normalised) or "ambient"; # starts a comment. Errors name
+/// `source` and the line.
 [[nodiscard]] Result<std::vector<Lobe>> parse_lobes(std::string_view text, std::string_view source);
 
 /// `count` spherical Gaussians, 1 to 12, whose axes and sharpness are fitted to the light ("sgfit4").

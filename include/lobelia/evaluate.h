@@ -1,4 +1,4 @@
-// Evaluation where every place has coefficients of its own: planes of them (a page of texels), packed textures.
+// Evaluation with coefficients per place: planes of them (a page of texels), packed textures.
 #pragma once
 
 #include "lobelia/basis.h"
@@ -7,15 +7,15 @@
 
 namespace lobelia {
 
-/// Coefficients of many places: pointer 3 i + k is channel k of coefficient i, a float for each place. Those of
+/// Coefficients of many places: pointer 3 i + k is channel k of coefficient i, one float per place. Those of
 /// CoefficientPlanes, or the caller's own arrays.
 using CoefficientPointers = std::span<const float* const>;
 
-/// E [W/m^2] of place j at normal j, clamped where the evaluator clamps. c.size() = 3 x coefficients, each of
-/// normals.size floats.
+/// Evaluates E [W/m^2] of place j at normal j, clamped if the evaluator clamps. Preconditions: c.size() = 3 x
+/// coefficients, each of normals.size floats.
 void irradiance(const Evaluator& evaluator, CoefficientPointers c, DirectionView normals, MutableColourView out);
 
-/// L [W/(m^2 sr)] of place j in direction j, signed. Preconditions as above.
+/// Evaluates L [W/(m^2 sr)] of place j in direction j, without clamping. Preconditions as above.
 void radiance(const Basis& basis, CoefficientPointers c, DirectionView directions, MutableColourView out);
 
 /// Packed textures of any storage, sampled as a shader does: each texture bilinearly between its texel centres (clamped
@@ -23,11 +23,11 @@ void radiance(const Basis& basis, CoefficientPointers c, DirectionView direction
 /// Texels are decoded at each lookup; nothing is unpacked or allocated.
 class TextureSampler {
   public:
-    /// The textures' bytes must outlive the sampler. Error: textures that do not fit the layout.
+    /// Makes a sampler; the textures' bytes must outlive it. Errors: textures that do not fit the layout.
     [[nodiscard]] static Result<TextureSampler> make(TextureLayout layout, std::span<const PackedTexture> textures);
 
     [[nodiscard]] std::size_t coefficients() const { return layout_.coefficients; }
-    /// The coefficients at uv; c.size() = coefficients().
+    /// Samples the coefficients at uv. Precondition: c.size() = coefficients().
     void sample(Vec2 uv, std::span<Rgb> c) const;
 
   private:
@@ -45,7 +45,7 @@ class TextureSampler {
     std::vector<Texture> textures_;
 };
 
-/// E [W/m^2] at uv of a texture and a normal in the frame of the coefficients.
+/// Evaluates E [W/m^2] at uv of a texture, for a normal in the frame of the coefficients.
 [[nodiscard]] Rgb irradiance(const Evaluator& evaluator, const TextureSampler& textures, Vec2 uv, Vec3 normal);
 
 }  // namespace lobelia

@@ -1,4 +1,4 @@
-// Scenes from and to glTF 2.0 files (Khronos 2021). Reading is safe on any bytes.
+// Reads and writes glTF 2.0 scenes (Khronos 2021). Reading is safe on any bytes.
 #pragma once
 
 #include <atomic>
@@ -58,27 +58,27 @@ struct GltfReadOptions {
 using ResourceReader =
     std::function<Result<std::vector<std::byte>>(const std::string& relative_path, std::size_t most_bytes)>;
 
-/// The same for a file in memory; messages call it `name`, and `resources` provides what it refers to (empty: nothing).
+/// Reads a file in memory; messages call it `name`, and `resources` provides the files that it refers to (empty: none).
 [[nodiscard]] Result<LoadedScene> read_gltf(std::span<const std::byte> bytes, std::string_view name,
                                             const ResourceReader& resources, const GltfReadOptions& options = {});
 
-/// What the file carries besides the scene. Vectors have an entry for each object, or are empty.
+/// Additional content of the file. Vectors have an entry per object, or are empty.
 struct GltfWriteOptions {
-    /// Lightmap UVs in place of those of the object's mesh: one for each vertex; empty: the mesh's own.
+    /// Lightmap UVs that replace those of the object's mesh, one per vertex; empty: the mesh's own.
     std::vector<std::vector<Vec2>> lightmap_uv;
     std::string scene_extras;                ///< a JSON object as text; empty: none
     std::vector<std::string> object_extras;  ///< likewise, for the objects' nodes
 };
 
-/// The bytes of a .glb file that read_gltf reads as the same scene, up to the rounding of unit vectors and of emission,
-/// with triangles sorted by material within a mesh, and without its environment, for which glTF has no place. Lightmap
-/// UVs are TEXCOORD_1, texture coordinates TEXCOORD_0 and, of a second set that is not the lightmap's, TEXCOORD_2;
-/// gaps between sets are filled; textures are PNG; a light's angular radius is in its extras. The same scene gives the
-/// same bytes. Errors: more than 4 GiB, extras that are not a JSON object, a texture transform that shears.
-/// Preconditions: check_scene; sizes as stated above.
+/// Writes a .glb file into memory. read_gltf reads it as the same scene, up to the rounding of unit vectors and of
+/// emission, with triangles sorted by material within a mesh, and without its environment, which glTF cannot store.
+/// Lightmap UVs are TEXCOORD_1, texture coordinates TEXCOORD_0 and, for a second set that is not the lightmap's,
+/// TEXCOORD_2; gaps between sets are filled; textures are PNG; a light's angular radius is in its extras. The same
+/// scene gives the same bytes. Errors: more than 4 GiB, extras that are not a JSON object, a texture transform that
+/// shears. Preconditions: check_scene; sizes as stated above.
 [[nodiscard]] Result<std::string> encode_glb(const Scene& scene, const GltfWriteOptions& options = {});
 
-/// Writes those bytes into a .glb file, which is replaced only once all of it is written.
+/// Writes the same bytes to a .glb file, which is replaced only once all of it is written.
 [[nodiscard]] Status write_gltf(const std::filesystem::path& path, const Scene& scene,
                                 const GltfWriteOptions& options = {});
 

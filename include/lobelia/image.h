@@ -1,4 +1,4 @@
-// An image of linear floats in memory, the exchange form between files, environments and pictures.
+// An image of linear floats in memory, exchanged between files, environments and pictures.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// Baked light as data: lightmap pages, where objects lie on them, and probes.
+// Baked light as data: lightmap pages, the placement of objects on them, and probes.
 #pragma once
 
 #include <array>
@@ -45,7 +45,8 @@ struct TexelBox {
     [[nodiscard]] bool empty() const { return x0 >= x1 || y0 >= y1; }
 };
 
-/// Where an object lies: page texel = scale * uv + offset per axis; texel centres at + 0.5, uv (0, 0) at the top left.
+/// Placement of an object: page texel = scale * uv + offset per axis; texel centres at + 0.5, uv (0, 0) at the top
+/// left.
 struct AtlasPlacement {
     std::uint32_t page = 0;
     Vec2 scale, offset;

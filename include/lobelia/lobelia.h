@@ -24,11 +24,12 @@
 // never divided by pi: docs/conventions.md.
 #pragma once
 
-// The order tells the story.
+// The order follows the light.
 // clang-format off
 
 // Numbers, and results of functions that may fail.
 #include "lobelia/math.h"
+#include "lobelia/contract.h"
 #include "lobelia/result.h"
 
 // Samples, and where they come from.
@@ -61,6 +62,9 @@
 
 // Conversion to and from the conventions of other programs.
 #include "lobelia/sh_conventions.h"
+
+// The instruction set that all of these use.
+#include "lobelia/simd.h"
 
 // All of these by name, and their errors.
 #include "lobelia/codec.h"

@@ -8,7 +8,7 @@ namespace lobelia {
 
 inline constexpr double k_pi = 3.14159265358979323846;
 
-/// A point of a plane: texture coordinates, texels.
+/// A point of a plane: texture coordinates or texels.
 struct Vec2 {
     float x = 0, y = 0;
     friend bool operator==(const Vec2&, const Vec2&) = default;
@@ -18,7 +18,7 @@ struct Vec2 {
 [[nodiscard]] constexpr Vec2 operator-(Vec2 a, Vec2 b) { return {a.x - b.x, a.y - b.y}; }
 [[nodiscard]] constexpr Vec2 operator*(Vec2 a, float s) { return {a.x * s, a.y * s}; }
 
-/// A point or, where said so, a unit direction; right-handed axes.
+/// A point or, where stated, a unit direction; right-handed axes.
 struct Vec3 {
     float x = 0, y = 0, z = 0;
     friend bool operator==(const Vec3&, const Vec3&) = default;
@@ -32,10 +32,10 @@ struct Vec3 {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 [[nodiscard]] inline float length(Vec3 a) { return std::sqrt(dot(a, a)); }
-/// `a` scaled to length 1; `a` must not be zero.
+/// Returns `a` scaled to length 1. Precondition: `a` is not zero.
 [[nodiscard]] inline Vec3 normalize(Vec3 a) { return a * (1.0f / length(a)); }
 
-/// A linear Rec. 709 triple: radiance [W/(m^2 sr)], irradiance [W/m^2] or a coefficient, as the context says.
+/// A linear Rec. 709 triple: radiance [W/(m^2 sr)], irradiance [W/m^2] or a coefficient, depending on the context.
 struct Rgb {
     float r = 0, g = 0, b = 0;
     friend bool operator==(const Rgb&, const Rgb&) = default;
@@ -44,7 +44,7 @@ struct Rgb {
 [[nodiscard]] constexpr Rgb operator+(Rgb a, Rgb b) { return {a.r + b.r, a.g + b.g, a.b + b.b}; }
 [[nodiscard]] constexpr Rgb operator-(Rgb a, Rgb b) { return {a.r - b.r, a.g - b.g, a.b - b.b}; }
 [[nodiscard]] constexpr Rgb operator*(Rgb a, float s) { return {a.r * s, a.g * s, a.b * s}; }
-/// Relative luminance Y of linear Rec. 709.
+/// Returns the relative luminance Y of linear Rec. 709.
 [[nodiscard]] constexpr float luminance(Rgb a) { return 0.2126f * a.r + 0.7152f * a.g + 0.0722f * a.b; }
 
 /// A rotation: three orthonormal rows, determinant +1; `rotate(m, v)` is the matrix times the column `v`.
@@ -52,7 +52,7 @@ using Rotation = std::array<Vec3, 3>;
 
 [[nodiscard]] constexpr Vec3 rotate(const Rotation& m, Vec3 v) { return {dot(m[0], v), dot(m[1], v), dot(m[2], v)}; }
 
-/// The rotation by `angle` [radians] about the unit `axis`, right-handed (Rodrigues).
+/// Returns the rotation by `angle` [radians] about the unit `axis`, right-handed (Rodrigues).
 [[nodiscard]] inline Rotation rotation_about(Vec3 axis, double angle) {
     const double c = std::cos(angle), s = std::sin(angle), t = 1 - c;
     const double x = axis.x, y = axis.y, z = axis.z;

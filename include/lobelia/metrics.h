@@ -1,4 +1,4 @@
-// How wrong one set of colours is against another.
+// Errors of one set of colours against another.
 #pragma once
 
 #include "lobelia/planes.h"
@@ -14,14 +14,14 @@ struct Errors {
     double smape = 0;           ///< weighted mean of |a - r| / (|a| + |r|), 0 where both are 0
     double relmse = 0;          ///< weighted mean of (a - r)^2 / (r^2 + 0.01)
     double negative_share = 0;  ///< see negative_share()
-    double worst = 0;           ///< largest root mean square over channels of one entry, and which entry it is
+    double worst = 0;           ///< largest RMS over the channels of one entry
     std::size_t worst_index = 0;
 };
 
-/// Weighted share of entries with a channel below 0.
+/// Returns the weighted fraction of entries with a channel below 0.
 [[nodiscard]] double negative_share(ColourView a, std::span<const float> weights);
 
-/// Precondition: all three of one size, weights >= 0.
+/// Computes all errors. Preconditions: all three have one size, weights >= 0.
 [[nodiscard]] Errors errors(ColourView a, ColourView reference, std::span<const float> weights);
 
 }  // namespace lobelia

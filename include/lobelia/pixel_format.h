@@ -10,23 +10,18 @@
 
 namespace lobelia {
 
+/// THE list of pixel formats. To add one, write src/core/storage/format/NAME.cpp, which defines `texels::NAME`, and put
+/// the name here, at the end.
+#define LOBELIA_PIXEL_FORMATS(format)                                                                            \
+    format(r32f) format(rg32f) format(rgba32f) format(r16f) format(rg16f) format(rgba16f) format(r8) format(rg8) \
+        format(rgba8) format(rgb10a2) format(rgb9e5) format(rgbe8) format(rgbm8) format(logluv32)                \
+            format(bc6h_unsigned) format(bc6h_signed)
+
+/// r32f, rg32f and so on: an enumerator for each name of the list.
 enum class PixelFormat : std::uint8_t {
-    r32f,
-    rg32f,
-    rgba32f,
-    r16f,
-    rg16f,
-    rgba16f,
-    r8,
-    rg8,
-    rgba8,
-    rgb10a2,
-    rgb9e5,
-    rgbe8,
-    rgbm8,
-    logluv32,
-    bc6h_unsigned,
-    bc6h_signed,
+#define LOBELIA_ENUMERATOR(name) name,
+    LOBELIA_PIXEL_FORMATS(LOBELIA_ENUMERATOR)
+#undef LOBELIA_ENUMERATOR
 };
 
 struct FormatInfo {
@@ -39,7 +34,7 @@ struct FormatInfo {
 };
 
 [[nodiscard]] const FormatInfo& info(PixelFormat format);
-/// All formats, in the order of the enumerators.
+/// All formats, in the order of the list.
 [[nodiscard]] std::span<const PixelFormat> pixel_formats();
 
 /// Bytes of a width x height texture; parts of blocks count as whole ones.

@@ -3,15 +3,16 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <cstddef>
 #include <vector>
 
+#include "lobelia/contract.h"
 #include "lobelia/math.h"
 
 namespace lobelia {
 
-/// Kernels work on groups of at most this many floats: the widest vector of any supported machine (512 bits).
+/// Maximum number of floats in a vector of any supported machine (512 bits); kernels work on groups of at most this
+/// many.
 inline constexpr std::size_t k_lanes = 16;
 
 [[nodiscard]] constexpr std::size_t round_up_to_lanes(std::size_t n) { return (n + k_lanes - 1) / k_lanes * k_lanes; }
@@ -24,18 +25,18 @@ struct PlanesView {
     std::size_t size = 0;
 
     [[nodiscard]] Float* channel(std::size_t i) const { return pointers[i]; }
-    /// Entries [begin, begin + count).
+    /// Returns entries [begin, begin + count).
     [[nodiscard]] PlanesView part(std::size_t begin, std::size_t count) const {
-        assert(begin + count <= size);
+        LOBELIA_ASSERT(begin + count <= size);
         PlanesView result{pointers, count};
         for (Float*& pointer : result.pointers) pointer += begin;
         return result;
     }
-    /// The M channels from `first` on.
+    /// Returns the M channels from `first` on.
     template <std::size_t M>
     [[nodiscard]] PlanesView<M, Float> channels(std::size_t first) const {
         static_assert(M <= N);
-        assert(first + M <= N);
+        LOBELIA_ASSERT(first + M <= N);
         PlanesView<M, Float> result{{}, size};
         std::copy_n(pointers.begin() + static_cast<std::ptrdiff_t>(first), M, result.pointers.begin());
         return result;
@@ -86,17 +87,17 @@ using Colours = Planes<3>;
 using ColourView = Colours::View;
 using MutableColourView = Colours::MutableView;
 
-/// Entry i of three channels, as a vector or a colour.
+/// Returns entry i of three channels, as a vector or a colour.
 template <class Triple, class Float>
 [[nodiscard]] Triple entry(const PlanesView<3, Float>& view, std::size_t i) {
-    assert(i < view.size);
+    LOBELIA_ASSERT_BELOW("index of an entry", i, view.size);
     return {view.channel(0)[i], view.channel(1)[i], view.channel(2)[i]};
 }
 [[nodiscard]] inline Vec3 direction_at(const DirectionView& view, std::size_t i) { return entry<Vec3>(view, i); }
 [[nodiscard]] inline Rgb colour_at(const ColourView& view, std::size_t i) { return entry<Rgb>(view, i); }
 
 inline void set_entry(const PlanesView<3, float>& view, std::size_t i, Vec3 v) {
-    assert(i < view.size);
+    LOBELIA_ASSERT_BELOW("index of an entry", i, view.size);
     view.channel(0)[i] = v.x;
     view.channel(1)[i] = v.y;
     view.channel(2)[i] = v.z;
@@ -105,13 +106,13 @@ inline void set_entry(const PlanesView<3, float>& view, std::size_t i, Rgb c) {
     set_entry(view, i, Vec3{c.r, c.g, c.b});
 }
 
-/// Every colour times `factor`.
+/// Returns every colour times `factor`.
 inline void scale(const MutableColourView& colours, float factor) {
     for (std::size_t k = 0; k < 3; ++k)
         for (std::size_t i = 0; i < colours.size; ++i) colours.channel(k)[i] *= factor;
 }
 
-/// Turns irradiance E into E / pi, the radiance that leaves a white diffuse surface.
+/// Converts irradiance E to E / pi, the radiance that leaves a white diffuse surface.
 inline constexpr auto k_over_pi = static_cast<float>(1 / k_pi);
 
 }  // namespace lobelia

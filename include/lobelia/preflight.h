@@ -78,9 +78,9 @@ struct Preflight {
 [[nodiscard]] Result<Preflight> preflight(const Scene& scene, const BakeJob& job,
                                           const std::atomic<bool>* stop = nullptr);
 
-/// Returns one sentence for each problem, with the objects' names; none if there is nothing to mend.
+/// Returns one sentence for each problem, with the objects' names; none if there is no problem.
 [[nodiscard]] std::vector<std::string> warnings(const Preflight& preflight, const Scene& scene);
-/// Returns all of it as lines for a terminal, warnings included.
+/// Returns the whole preflight as lines for a terminal, warnings included.
 [[nodiscard]] std::string to_text(const Preflight& preflight, const Scene& scene);
 
 }  // namespace lobelia

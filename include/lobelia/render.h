@@ -22,10 +22,10 @@ struct PathOptions {
     Switch next_event = Switch::on;         ///< shadow rays; off: paths hit light sources by chance (slow)
     Switch environment_table = Switch::on;  ///< sample the environment by its brightness; off: uniformly
     Switch roulette = Switch::on;           ///< Russian roulette for weak paths
-    Switch sun_size = Switch::on;           ///< off: directional lights are parallel beams whatever their radius
+    Switch sun_size = Switch::on;           ///< off: directional lights are parallel beams, ignoring their radius
 };
 
-/// Which lightmap UVs a scene brings to its bake: those that were baked, or those of the copy in the bake's folder
+/// Lightmap UVs of a scene relative to its bake: those that were baked, or those of the copy in the bake's folder
 /// (scene.glb), which are UVs of the pages.
 enum class LightmapUv { original, of_copy };
 

@@ -1,19 +1,23 @@
-// What a function returns when its input may be bad: a value, or an error that names file, place and remedy.
+// The result of a function whose input may be bad: a value, or an error that names file, place and remedy.
 #pragma once
 
-#include <cassert>
 #include <string>
 #include <utility>
 #include <variant>
 
+#include "lobelia/contract.h"
+
 namespace lobelia {
 
-/// Why bad input was refused: one or two sentences for a person, naming the file and the place in it.
+/// The reason why bad input was refused: one or two sentences for a person, naming the file and the place in it.
 struct Error {
+    /// stopped: the caller's stop flag ended the work; there is nothing to mend.
+    enum class Kind { refused, stopped };
     std::string message;
+    Kind kind = Kind::refused;
 };
 
-/// A `T` or an `Error`. Reading the value of a failure is the caller's mistake (asserted).
+/// A `T` or an `Error`. To read the value of a failure, or the error of a success, violates the contract (contract.h).
 template <class T>
 class [[nodiscard]] Result {
   public:
@@ -22,20 +26,21 @@ class [[nodiscard]] Result {
 
     [[nodiscard]] explicit operator bool() const { return content_.index() == 0; }
     [[nodiscard]] const Error& error() const {
-        assert(!*this);
-        return std::get<1>(content_);
+        if (*this) [[unlikely]]
+            contract_violated("error() of a success");
+        return *std::get_if<1>(&content_);
     }
     [[nodiscard]] T& value() & {
-        assert(*this);
-        return std::get<0>(content_);
+        check_success();
+        return *std::get_if<0>(&content_);
     }
     [[nodiscard]] const T& value() const& {
-        assert(*this);
-        return std::get<0>(content_);
+        check_success();
+        return *std::get_if<0>(&content_);
     }
     [[nodiscard]] T&& value() && {
-        assert(*this);
-        return std::get<0>(std::move(content_));
+        check_success();
+        return std::move(*std::get_if<0>(&content_));
     }
     [[nodiscard]] T& operator*() & { return value(); }
     [[nodiscard]] const T& operator*() const& { return value(); }
@@ -44,6 +49,11 @@ class [[nodiscard]] Result {
     [[nodiscard]] const T* operator->() const { return &value(); }
 
   private:
+    void check_success() const {
+        if (!*this) [[unlikely]]
+            contract_violated("value() of a failure: " + error().message);
+    }
+
     std::variant<T, Error> content_;
 };
 

@@ -1,14 +1,14 @@
-// Radiance samples, one or many: what arrives from an environment or a path tracer.
+// Radiance samples, one or many: light that arrives from an environment or a path tracer.
 #pragma once
 
 #include "lobelia/planes.h"
 
 namespace lobelia {
 
-/// Where radiance is defined: all directions, or the upper hemisphere z >= 0 of a tangent frame.
+/// Domain of radiance: all directions, or the upper hemisphere z >= 0 of a tangent frame.
 enum class Domain { sphere, hemisphere };
 
-/// The solid angle of the domain [sr].
+/// Returns the solid angle of the domain [sr].
 [[nodiscard]] constexpr double solid_angle(Domain domain) { return domain == Domain::sphere ? 4 * k_pi : 2 * k_pi; }
 
 /// One radiance sample. `solid_angle` [sr] is its share of the domain, 1 / (N pdf): all sum to 4 pi (sphere) or 2 pi
@@ -24,7 +24,7 @@ struct SampleView : PlanesView<7, const float> {
     [[nodiscard]] DirectionView directions() const { return channels<3>(0); }
     [[nodiscard]] ColourView radiance() const { return channels<3>(3); }
     [[nodiscard]] const float* solid_angles() const { return channel(6); }
-    /// Samples [begin, begin + count).
+    /// Returns samples [begin, begin + count).
     [[nodiscard]] SampleView part(std::size_t begin, std::size_t count) const {
         return {PlanesView<7, const float>::part(begin, count)};
     }

@@ -13,7 +13,7 @@
 
 namespace lobelia {
 
-/// Where a scene comes from, and how it is read.
+/// The source of a scene, and how it is read.
 struct SceneSource {
     std::string path;                             ///< a .glb or .gltf file, or the name of an embedded scene
     std::optional<std::string> environment = {};  ///< an image file, "sky" or "none"; absent: the scene's own
@@ -30,12 +30,13 @@ struct SceneSource {
 /// A scene that passes check_scene, and the reader's warnings.
 struct LoadedScene {
     Scene scene;
-    std::vector<std::string> warnings;
-    /// The parts without lightmap UVs of meshes that have them elsewhere, by their places in the file.
-    std::vector<std::string> parts_without_lightmap_uv;
+    std::vector<std::string> warnings = {};
+    /// Primitives without lightmap UVs in meshes that have them elsewhere, by their places in the file.
+    std::vector<std::string> parts_without_lightmap_uv = {};
+    SceneSource source = {};  ///< of load_scene(); a job that keeps it can be resumed by the command line
 };
 
-/// Reads or makes the scene and sets its environment. Errors name the file, the place in it and what to do; an early
+/// Reads or makes the scene and sets its environment. Errors name the file, the place in it and the remedy; an early
 /// stop, when `stop` becomes true, is an error too.
 [[nodiscard]] Result<LoadedScene> load_scene(const SceneSource& source, const std::atomic<bool>* stop = nullptr);
 

@@ -6,13 +6,13 @@
 
 namespace lobelia {
 
-/// Where the sun stands, and in what air. The model was fitted for the ranges given here.
+/// Position of the sun, and haziness of the air. The model was fitted for the ranges given here.
 struct SkyOptions {
     /// Haziness: 2 very clear, 3 clear, 6 hazy, 10 thick haze.
     double turbidity = 3;
     /// Height of the sun's centre above the horizon [degrees], in (0, 90].
     double sun_elevation = 40;
-    /// From -z, the image's centre, towards +x [degrees].
+    /// Azimuth of the sun from -z, the image's centre, towards +x [degrees].
     double sun_azimuth = 45;
     /// Reflectance of the ground, in [0, 1], grey and Lambertian.
     double ground_albedo = 0.2;
@@ -21,10 +21,11 @@ struct SkyOptions {
 /// Angular radius of the sun's disc [degrees].
 inline constexpr double k_sun_radius = 0.2665;
 
-/// An error that names the first option outside its range.
+/// Checks the options. Errors name the first one outside its range.
 [[nodiscard]] Status check(const SkyOptions& options);
 
-/// Mean radiance of the sun's disc as seen from the ground [W/(m^2 sr)] and the solid angle of the disc [sr].
+/// Returns the mean radiance of the sun's disc as seen from the ground [W/(m^2 sr)] and the solid angle of the disc
+/// [sr].
 struct SunDisc {
     Rgb radiance;
     double solid_angle = 0;
@@ -32,8 +33,8 @@ struct SunDisc {
 };
 [[nodiscard]] SunDisc sun_disc(const SkyOptions& options);
 
-/// Radiance of the sky without its sun, or of the ground [W/(m^2 sr)], for unit directions; y is up. Finite, not
-/// negative, and continuous: over the first degree below the horizon sky passes smoothly into ground.
+/// Returns the radiance of the sky without its sun, or of the ground [W/(m^2 sr)], for unit directions; y is up.
+/// Finite, non-negative and continuous: over the first degree below the horizon sky blends smoothly into ground.
 class Sky {
   public:
     /// Precondition: check(options).
@@ -42,7 +43,7 @@ class Sky {
     [[nodiscard]] Rgb ground() const { return ground_; }
 
   private:
-    /// Perez's five coefficients and the value at the zenith over that of the formula there.
+    /// Perez's five coefficients, and the value at the zenith divided by the formula's value there.
     struct Perez {
         double a, b, c, d, e, scale;
         [[nodiscard]] double operator()(double cos_theta, double gamma) const;
@@ -55,9 +56,9 @@ class Sky {
     Rgb ground_;
 };
 
-/// The environment: sky and ground at each texel's centre, and the sun's disc spread over the texels that it covers so
-/// that its integral over the image is radiance times solid angle at every resolution. Luminance is turned into
-/// W/(m^2 sr) by k_white_efficacy, 179 lm/W. Preconditions: the grid is at least 1 x 1, check(options).
+/// Makes the environment: sky and ground at each texel's centre, and the sun's disc distributed over the texels that it
+/// covers, so that its integral over the image is radiance times solid angle at every resolution. Luminance is
+/// converted to W/(m^2 sr) by k_white_efficacy, 179 lm/W. Preconditions: the grid is at least 1 x 1, check(options).
 [[nodiscard]] Image sky(LatLong grid, const SkyOptions& options = {});
 
 }  // namespace lobelia

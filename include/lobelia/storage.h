@@ -1,4 +1,4 @@
-// Storages: ways to keep coefficients in fewer bytes, with what each costs in accuracy.
+// Storages: compact forms of coefficients, with the error of each.
 #pragma once
 
 #include "lobelia/encoder.h"
@@ -11,58 +11,59 @@ namespace lobelia {
 struct CoefficientTraits {
     std::size_t count = 0;
     bool non_negative = false;       ///< every coefficient is >= 0
-    bool colours = true;             ///< each is a colour, whose chroma varies less than its luma
-    std::vector<float> lead_bounds;  ///< |c_i| <= lead_bounds[i] c_0 for light that is >= 0; empty where nothing bounds
+    bool colours = true;             ///< each is a colour, with less variation in chroma than in luma
+    std::vector<float> lead_bounds;  ///< |c_i| <= lead_bounds[i] c_0 for light that is >= 0; empty: no bounds
 };
 
 [[nodiscard]] CoefficientTraits coefficient_traits(const Encoder& encoder);
-/// Of the encoders that a basis is listed with, those of a non-negative one where it has any: most storages suit it.
+/// Returns the traits for the encoders that a basis is listed with: those of a non-negative encoder if there is one,
+/// since most storages support it.
 [[nodiscard]] CoefficientTraits coefficient_traits(const std::shared_ptr<const Basis>& basis);
 
-/// The largest error of storing v: relative m + of_texture t + spread s + absolute.
+/// The maximum error of storing v: relative m + of_texture t + spread s + absolute.
 struct ErrorBound {
-    /// What `relative` is a share of, m: the stored value alone; the largest magnitude among what is stored with it,
-    /// of a texel or of a coefficient's three channels; or the largest magnitude of the leading coefficient, times
-    /// what that bounds this one by.
+    /// Definition of m, the reference of `relative`. value: the stored value. together: the largest magnitude among
+    /// values stored together, of a texel or of a coefficient's three channels. lead: the largest magnitude of the
+    /// leading coefficient, times its bound of this one.
     enum class Of { value, together, lead };
     double relative = 0;
     Of of = Of::value;
-    double absolute = 0;     ///< beneath what the format can tell from 0
-    double of_texture = 0;   ///< share of t, the largest magnitude in the texture
-    double spread = 0;       ///< share of s, the largest difference, in any channel, within the texels that share data
-    std::size_t shared = 1;  ///< those are squares of this many texels a side
+    double absolute = 0;    ///< for values too small for the format
+    double of_texture = 0;  ///< fraction of t, the largest magnitude in the texture
+    double spread = 0;  ///< fraction of s, the largest difference, in any channel, within the texels that share data
+    std::size_t shared = 1;  ///< side of the squares of texels that share data
 };
 
-/// A way to store coefficients; all of it is data.
+/// A way to store coefficients, described by data.
 struct Storage {
     /// Its requirement on coefficients.
     enum class Suits { any, non_negative, colours, bounded_by_lead };
     std::string_view name, description;
     Suits suits = Suits::any;
-    ErrorBound bound;  ///< of the coefficients that are read back
+    ErrorBound bound;  ///< error of the unpacked coefficients
     TextureLayout (*layout)(const CoefficientTraits&) = nullptr;
 };
 
-/// THE list (src/core/storage/storages.cpp).
+/// Returns the list of all storages (src/core/storage/storages.cpp).
 [[nodiscard]] std::span<const Storage> storages();
 [[nodiscard]] bool suits(const Storage& storage, const CoefficientTraits& traits);
-/// Whether texels beside each other have bits in common, so that a single one tells nothing of the error.
+/// Returns whether neighbouring texels share data, so that the error of a single one is not representative.
 [[nodiscard]] bool shares_texels(const Storage& storage);
-/// By name; the error of an unknown one lists the nearest.
+/// Finds a storage by name. Errors: an unknown name; the message suggests the nearest.
 [[nodiscard]] Result<const Storage*> find_storage(std::string_view name);
-/// By names, each once; the error of an incompatible one says what it requires and which others are usable.
+/// Finds storages by names, without duplicates. Errors: an unknown name; an incompatible storage, with its requirement
+/// and the usable ones.
 [[nodiscard]] Result<std::vector<const Storage*>> find_storages(std::span<const std::string> names,
                                                                 const CoefficientTraits& traits);
-/// The default storages of a bake: plain halves, and ratios in bytes where they are usable.
+/// Returns the default storages of a bake: plain halves, and ratios in bytes where they are usable.
 [[nodiscard]] std::vector<const Storage*> default_storages(const CoefficientTraits& traits);
 
-/// The largest error of `storage` by its bound, for each value of `coefficients`, into planes of the same shape;
-/// HUGE_VALF where a value is outside of its limits: below 0 for formats without a sign, or beyond its
-/// lead's bound.
+/// Computes the maximum error of `storage` by its bound, for each value of `coefficients`, into planes of the same
+/// shape; HUGE_VALF if a value is outside its limits: below 0 for unsigned formats, or beyond its lead's bound.
 void allowed_error(const Storage& storage, const CoefficientTraits& traits, const CoefficientPlanes& coefficients,
                    const MutableCoefficientPlanes& out);
 
-/// The coefficients of one texel or probe as they come back from storage.
+/// Packs and unpacks the coefficients of one texel or probe.
 [[nodiscard]] std::vector<Rgb> stored_and_read(const Storage& storage, const CoefficientTraits& traits,
                                                std::span<const Rgb> c);
 

@@ -2,7 +2,6 @@
 #include "lobelia/bake.h"
 
 #include "arrays.h"
-#include "bake/check_job.h"
 #include "interruptible.h"
 #include "scene.h"
 
@@ -65,22 +64,24 @@ BakeJob to_job(const py::kwargs& options) {
     job.precision = choose<Precision>("precision", options["precision"].cast<std::string>(),
                                       {{"half", Precision::half}, {"float", Precision::full}});
     set("storages", job.storages);
+    set("container", job.container);
     if (!options["probe_spacing"].is_none()) set("probe_spacing", job.probes.emplace().spacing);
     job.report.write = Switch::off;
-    if (const auto status = check(job); !status) throw BadInput(status.error().message);
     return job;
 }
 
 BakeHandle run(const SceneHandle& scene, const std::optional<std::filesystem::path>& folder, bool resume,
-               const py::object& progress, const BakeJob& job) {
+               const py::object& progress, BakeJob job) {
     // Hold the scene: Python may drop it, or give it another environment.
     const auto held = scene.loaded;
+    job.scene = held->source;
     return run_interruptibly<BakeProgress>(progress, [&](const std::atomic<bool>& stop, const auto& report) {
         BakeSession session;
         if (folder) session.folder = *folder;
         session.start = resume ? BakeSession::Start::resume : BakeSession::Start::fresh;
         session.stop = &stop;
         session.progress = report;
+        session.earlier_warnings = held->warnings;
         return std::make_shared<Bake>(value_or_throw(bake(held->scene, job, session)));
     });
 }
@@ -134,9 +135,11 @@ py::dict statistics(const BakeHandle& bake) {
 }
 
 void write_to(const BakeHandle& bake, const std::filesystem::path& folder,
-              const std::optional<std::vector<std::string>>& storages, const SceneHandle* scene) {
+              const std::optional<std::vector<std::string>>& storages, const SceneHandle* scene,
+              const std::string& container) {
     py::gil_scoped_release released;
-    (void)value_or_throw(write_bake(folder, *bake, {storages, scene == nullptr ? nullptr : &scene->loaded->scene}));
+    const Scene* written = scene == nullptr ? nullptr : &scene->loaded->scene;
+    (void)value_or_throw(write_bake(folder, *bake, {storages, written, container}));
 }
 
 void add_progress(py::module_& module) {
@@ -208,10 +211,10 @@ void add_bake_class(py::module_& module) {
         .def(
             "write",
             [](const std::shared_ptr<Bake>& b, const std::filesystem::path& folder,
-               const std::optional<std::vector<std::string>>& storages,
-               const SceneHandle* scene) { write_to(b, folder, storages, scene); },
+               const std::optional<std::vector<std::string>>& storages, const SceneHandle* scene,
+               const std::string& container) { write_to(b, folder, storages, scene, container); },
             py::arg("folder"), py::kw_only(), py::arg("storages") = py::none(), py::arg("scene") = py::none(),
-            "Writes pages, textures and bake.json; with the scene, also its copy.");
+            py::arg("container") = "ktx2", "Writes pages, textures and bake.json; with the scene, also its copy.");
 }
 
 }  // namespace

@@ -57,6 +57,9 @@ Samples to_samples(const FloatArray& directions, const FloatArray& radiance,
 PYBIND11_MODULE(_native, module) {
     using namespace lobelia::python;
     module.attr("__version__") = LOBELIA_VERSION;
+    // Shapes are checked before the library is called; what a check here overlooks is a ValueError, too, not an abort.
+    lobelia::set_contract_handler(
+        [](const lobelia::ContractViolation& violation) { throw std::invalid_argument(violation.str()); });
     pybind11::register_exception<BadInput>(module, "Error", PyExc_ValueError).attr("__doc__") =
         "Bad input: a file, a name, an option or the shape of an array; the message names the place and the remedy.";
     add_environment(module);

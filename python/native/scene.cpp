@@ -16,12 +16,17 @@ SceneHandle read(const std::filesystem::path& path, std::size_t uv_set, bool pho
     options.scene_memory = scene_memory;
     if (photometric) options.units = GltfReadOptions::Units::photometric;
     py::gil_scoped_release released;
-    return {std::make_shared<LoadedScene>(value_or_throw(read_gltf(path, options)))};
+    auto loaded = std::make_shared<LoadedScene>(value_or_throw(read_gltf(path, options)));
+    loaded->source.path = path.string();
+    loaded->source.uv_set = uv_set;
+    loaded->source.photometric = photometric ? Switch::on : Switch::off;
+    return {std::move(loaded)};
 }
 
 SceneHandle make_embedded(const std::string& name) {
     auto loaded = std::make_shared<LoadedScene>();
     loaded->scene = value_or_throw(embedded_scene(name));
+    loaded->source.path = name;
     return {std::move(loaded)};
 }
 
@@ -31,7 +36,13 @@ void set_scene_sky(SceneHandle& self, double turbidity, double sun_elevation, do
     options.sun_elevation = sun_elevation;
     options.sun_azimuth = sun_azimuth;
     if (const auto status = check(options); !status) throw BadInput(status.error().message);
-    self.change([&](Scene& scene) { set_sky(scene, options); });
+    self.change([&](LoadedScene& loaded) {
+        set_sky(loaded.scene, options);
+        loaded.source.environment.reset();
+        loaded.source.turbidity = turbidity;
+        loaded.source.sun_elevation = sun_elevation;
+        loaded.source.sun_azimuth = sun_azimuth;
+    });
 }
 
 std::vector<std::string> object_names(const SceneHandle& self) {
@@ -47,9 +58,11 @@ std::optional<Environment> environment_of(const SceneHandle& self) {
 }
 
 void set_environment(SceneHandle& self, const std::optional<Environment>& environment) {
-    self.change([&](Scene& scene) {
-        scene.environment.reset();
-        if (environment) scene.environment = *environment->image;
+    self.change([&](LoadedScene& loaded) {
+        loaded.scene.environment.reset();
+        if (environment) loaded.scene.environment = *environment->image;
+        // An image in memory has no name for the command line.
+        loaded.source = {};
     });
 }
 

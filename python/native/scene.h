@@ -14,7 +14,7 @@ struct SceneHandle {
     template <class Change>
     void change(const Change& change) {
         auto copy = std::make_shared<LoadedScene>(*loaded);
-        change(copy->scene);
+        change(*copy);
         loaded = std::move(copy);
     }
 };

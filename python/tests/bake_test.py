@@ -79,7 +79,7 @@ class Bakes(unittest.TestCase):
 
     def test_bad_options_are_errors(self):
         for options in ({"samples": 0}, {"size": (0, 64)}, {"bounces": 65}, {"codec": "sh2"}, {"frame": "moon"},
-                        {"storages": ["no-such"]}, {"memory": 1}):
+                        {"storages": ["no-such"]}, {"container": "no-such"}, {"memory": 1}):
             with self.assertRaises(lobelia.Error, msg=str(options)):
                 lobelia.bake(self.scene, **{**SMALL, **options})
         with self.assertRaises(TypeError):

@@ -2,16 +2,19 @@
 #include "lobelia/bake.h"
 
 #include <fmt/format.h>
-#include <tbb/task_arena.h>
 
+#include "bake/check_job.h"
 #include "bake/finish/finish.h"
 #include "bake/finish/steps.h"
 #include "bake/place/objects.h"
 #include "bake/preflight/preflight.h"
 #include "bake/probes/bake_probes.h"
+#include "bake/session/continuation.h"
 #include "bake/session/merge.h"
 #include "bake/session/regions.h"
 #include "bake/solve/solve.h"
+#include "bake/with_threads.h"
+#include "bake/write/bake_folder.h"
 #include "bake/write/job_file.h"
 #include "bake/write/manifest.h"
 #include "bake/write/page_textures.h"
@@ -36,9 +39,14 @@ void warn(Bake& bake, const BakeSession& session, const std::string& text) {
     if (session.warn) session.warn(text);
 }
 
+Status check_textures(const BakeJob& job) {
+    const auto textures = PageTextures::make(job.bake.codec, job.storages, job.container);
+    return textures ? Status(Done{}) : textures.error();
+}
+
 /// Lays out pages, texels and probes; checks everything that is cheap to refuse, and warns.
 Result<BakeWork> place(const Scene& scene, const BakeJob& job, const BakeSession& session) {
-    if (const auto textures = PageTextures::make(job.bake.codec, job.storages); !textures) return textures.error();
+    if (auto status = check_textures(job); !status) return status.error();
     auto setup = BakeSetup::make(scene, job.bake, session.stop);
     if (!setup) return setup.error();
     BakeWork work{*std::move(setup), {}};
@@ -64,6 +72,7 @@ Status gather_and_solve(BakeWork& work, const BakeSession& session, const fs::pa
                                                              setup.encoding.page_channels().count()));
     RegionGatherer gatherer(setup, session, checkpoint);
     SolveTotals totals;
+    InstructionSets instruction_sets = 0;
     for (std::size_t number = 0; number < setup.plan.regions.size(); ++number) {
         const auto region = gatherer.gather(number);
         if (!region) return region.error();
@@ -71,15 +80,17 @@ Status gather_and_solve(BakeWork& work, const BakeSession& session, const fs::pa
                    {region->texels, region->receivers, region->states.states(), session.stop}, setup.encoding,
                    setup.options.samples_per_pass, totals);
         const RegionHeader& header = region->states.header;
+        instruction_sets = joined(instruction_sets, header.instruction_sets);
         statistics.rays += header.rays;
         statistics.seconds += header.seconds;
         statistics.samples =
             std::max(statistics.samples, (header.end_pass - setup.plan.first_pass) * setup.options.samples_per_pass);
     }
     totals.finish(statistics);
+    if (are_several(instruction_sets)) warn(work.bake, session, several_sets_warning(instruction_sets));
     if (statistics.codec_error > k_useless_codec)
         warn(work.bake, session,
-             fmt::format("the codec's irradiance is off by {:.0f} % RMS: encoder \"{}\" does not suit this light; use "
+             fmt::format("codec irradiance error {:.0f} % RMS: encoder \"{}\" is unsuitable for this light; use "
                          "moments or least-squares",
                          100 * statistics.codec_error, setup.encoding.codec()->name().encoder));
     return Done{};
@@ -102,7 +113,8 @@ Status fill_up_from(const Bake& finished, const BakeSetup& setup, std::vector<Li
     return Done{};
 }
 
-/// Denoises the pages; `merge` may then complete them; closes seams, dilates, and fits the codec's coefficients.
+/// Denoises the pages; `complete` may then add texels from elsewhere; closes seams, dilates, and fits the codec's
+/// coefficients.
 template <class Complete>
 Status finish(BakeWork& work, const FinishOptions& steps, const BakeSession& session, const Complete& complete) {
     const BakeSetup& setup = *work.setup;
@@ -122,13 +134,19 @@ Status finish(BakeWork& work, const FinishOptions& steps, const BakeSession& ses
     if (auto status = complete(pages); !status) return status;
     const bool fitted = pages.front().planes.size() != setup.encoding.page_channels().count();
     if (steps.seams == Switch::on) {
-        SeamSurroundings around{setup.tracer.get(), {}};
-        if (setup.options.push_out == Switch::on)
-            around.displaced = displaced_texels(setup.atlas, map, *setup.tracer, stop);
-        SeamOptions options;
-        options.stop = stop;
-        if (!fitted) close_seams(pages, setup.encoding.page_channels(), setup.atlas, options, around);
-        taken.emplace_back("seams");
+        if (fitted) {
+            warn(work.bake, session,
+                 "seams around the object are not closed: the coefficients of " + setup.encoding.codec()->name().basis +
+                     " are not linear in the light");
+        } else {
+            SeamSurroundings around{setup.tracer.get(), {}};
+            if (setup.options.push_out == Switch::on)
+                around.displaced = displaced_texels(setup.atlas, map, *setup.tracer, stop);
+            SeamOptions options;
+            options.stop = stop;
+            close_seams(pages, setup.encoding.page_channels(), setup.atlas, options, around);
+            taken.emplace_back("seams");
+        }
     }
     if (steps.dilate == Switch::on) {
         DilateOptions options;
@@ -149,9 +167,13 @@ Status add_probes(BakeWork& work, const BakeJob& job, const BakeSession& session
     return Done{};
 }
 
-Status write(BakeWork& work, const BakeJob& job, const BakeSession& session) {
+/// Writes the bake into the session's folder; `prepare(FilesTogether&)` adds what is to change there in the same step.
+template <class Prepare>
+Status write(BakeWork& work, const BakeJob& job, const BakeSession& session, const Prepare& prepare) {
     if (session.folder.empty()) return Done{};
-    auto manifest = write_bake(session.folder, work.bake, {job.storages, work.setup->scene, session.stop});
+    FilesTogether files(session.lock, session.stop);
+    if (Status status = prepare(files); !status) return status;
+    auto manifest = write_bake(std::move(files), work.bake, {job.storages, work.setup->scene, job.container});
     if (!manifest) return manifest.error();
     for (std::size_t i = work.bake.manifest.warnings.size(); i < manifest->warnings.size() && session.warn; ++i)
         session.warn(manifest->warnings[i]);
@@ -159,86 +181,122 @@ Status write(BakeWork& work, const BakeJob& job, const BakeSession& session) {
     return Done{};
 }
 
-/// Runs `work` with the job's number of threads; an error if it is stopped.
+/// Removes the states, which do not hold the texels of an object baked again, and notes that in the job.
+Status drop_states(FilesTogether& files, const BakeJob& job, std::string_view object) {
+    if (!holds_job(files.folder())) return Done{};
+    const auto earlier = read_kept_job(files.folder());
+    if (!earlier) return earlier.error();
+    KeptJob kept{job, earlier->rebaked.value_or(std::vector<std::string>())};
+    kept.rebaked->emplace_back(object);
+    for (const std::string& states : region_names(files.folder())) files.remove(states);
+    return files.add_text(k_job_name, to_json_text(kept));
+}
+
+/// Checks the job, and runs `work` with its number of threads; an error if it is stopped.
 template <class Work>
-auto with_threads(const BakeJob& job, const Work& work) {
-    tbb::task_arena arena(job.bake.threads == 0 ? tbb::task_arena::automatic : static_cast<int>(job.bake.threads));
-    return arena.execute([&] { return unless_stopped(work); });
+auto run_checked(const BakeJob& job, const Work& work) -> decltype(work()) {
+    if (auto status = check(job); !status) return status.error();
+    return with_threads(job.bake.threads, [&] { return unless_stopped(work); });
 }
 
-/// An error if the folder cannot be written to, or its checkpoint would be written elsewhere.
-Status check_output(const fs::path& folder) {
-    if (auto status = check_folder(folder); !status) return status;
-    std::error_code code;
-    if (const fs::path checkpoint = checkpoint_folder(folder); fs::is_symlink(checkpoint, code))
-        return Error{checkpoint.string() +
-                     ": a symbolic link; checkpoints are written into the bake's own folder only"};
-    return Done{};
+/// Returns the session with its folder locked, if it has one.
+Result<BakeSession> locked(const BakeSession& session) {
+    BakeSession holder = session;
+    if (session.folder.empty() || session.lock) return holder;
+    if (auto status = check_folder(session.folder); !status) return status.error();
+    auto lock = lock_folder(session.folder);
+    if (!lock) return lock.error();
+    holder.lock = *std::move(lock);
+    return holder;
 }
 
-/// An error if the folder cannot be written to, or holds states that a fresh start would replace.
-Status check_session(const BakeSession& session) {
+/// Checks what the folder holds against the bake, before anything there is changed; then keeps the job there.
+Status begin(const BakeWork& work, const BakeJob& job, const BakeSession& session) {
     if (session.folder.empty()) return Done{};
-    if (auto status = check_output(session.folder); !status) return status;
-    std::error_code code;
-    const fs::path states = region_file(checkpoint_folder(session.folder), 0);
-    if (session.start == BakeSession::Start::fresh && fs::exists(states, code)) return earlier_checkpoint(states);
-    return Done{};
+    if (session.start == BakeSession::Start::resume)
+        if (auto status = check_continuation(*work.setup, session.folder); !status) return status;
+    return save_job(session.folder, job);
+}
+
+/// Gathers light with a checkpoint after each pass, finishes the pages and writes the folder.
+Result<Bake> run(const Scene& scene, const BakeJob& job, const BakeSession& session) {
+    if (session.start == BakeSession::Start::fresh && !session.folder.empty() && !region_names(session.folder).empty())
+        return earlier_checkpoint(session.folder);
+
+    // Place texels on pages and in the world.
+    auto work = place(scene, job, session);
+    if (!work) return work.error();
+
+    // Gather light for each texel and solve for its coefficients.
+    const fs::path checkpoint = session.folder.empty() ? fs::path() : checkpoint_folder(session.folder);
+    Status status = begin(*work, job, session);
+    if (status) status = gather_and_solve(*work, session, checkpoint);
+    if (job.bake.shard.count > 1) work->bake.pages.clear();
+    if (!status || job.bake.shard.count > 1) return status ? Result<Bake>(work->bake) : status.error();
+
+    // Finish the pages, add probes, and write the folder.
+    status = finish(*work, job.finish, session, [](auto&) -> Status { return Done{}; });
+    if (status) status = add_probes(*work, job, session);
+    if (status) status = write(*work, job, session, [](FilesTogether&) -> Status { return Done{}; });
+    return status ? Result<Bake>(std::move(work->bake)) : status.error();
+}
+
+/// Puts the states of all shards and the job into the folder, in one step: from then on the bake can be resumed.
+Status merge_into(const Scene& scene, const BakeJob& job, std::span<const fs::path> shards,
+                  const BakeSession& session) {
+    if (!region_names(session.folder).empty())
+        return Error{
+            fmt::format("{}: holds the states of a bake already; complete it: lobelia bake --resume -o {}; or "
+                        "merge into another folder",
+                        checkpoint_folder(session.folder).string(), session.folder.string())};
+    const auto setup = BakeSetup::make(scene, job.bake, session.stop);
+    if (!setup) return setup.error();
+    FilesTogether files(session.lock, session.stop);
+    Status status = merge_shards(**setup, shards, files);
+    if (status) status = files.add_text(k_job_name, to_json_text(KeptJob{job, {}}));
+    return status ? files.commit() : status;
 }
 
 }  // namespace
 
 Result<Bake> bake(const Scene& scene, const BakeJob& job, BakeSession& session) {
-    if (auto status = check_session(session); !status) return status.error();
-    return with_threads(job, [&]() -> Result<Bake> {
-        // Place texels on pages and in the world.
-        auto work = place(scene, job, session);
-        if (!work) return work.error();
-
-        // Gather light for each texel and solve for its coefficients, with a checkpoint after each pass.
-        const fs::path checkpoint = session.folder.empty() ? fs::path() : checkpoint_folder(session.folder);
-        Status status = checkpoint.empty() ? Done{} : save_job(checkpoint, job);
-        if (status) status = gather_and_solve(*work, session, checkpoint);
-        if (job.bake.shard.count > 1) work->bake.pages.clear();
-        if (!status || job.bake.shard.count > 1) return status ? Result<Bake>(work->bake) : status.error();
-
-        // Finish the pages, add probes, and write the folder.
-        status = finish(*work, job.finish, session, [](auto&) -> Status { return Done{}; });
-        if (status) status = add_probes(*work, job, session);
-        if (status) status = write(*work, job, session);
-        return status ? Result<Bake>(std::move(work->bake)) : status.error();
+    return run_checked(job, [&]() -> Result<Bake> {
+        const auto holder = locked(session);
+        return holder ? run(scene, job, *holder) : holder.error();
     });
 }
 
 Result<Bake> merge_bake(const Scene& scene, const BakeJob& job, std::span<const fs::path> shards,
                         BakeSession& session) {
-    if (auto status = check_output(session.folder); !status) return status.error();
-    std::vector<fs::path> checkpoints;
-    for (const fs::path& shard : shards) checkpoints.push_back(checkpoint_folder(shard));
-    const Status merged = with_threads(job, [&]() -> Status {
-        const auto setup = BakeSetup::make(scene, job.bake, session.stop);
-        if (!setup) return setup.error();
-        return merge_shards(**setup, checkpoints, checkpoint_folder(session.folder), session.stop);
+    return run_checked(job, [&]() -> Result<Bake> {
+        auto holder = locked(session);
+        if (!holder) return holder.error();
+        if (auto status = merge_into(scene, job, shards, *holder); !status) return status.error();
+        // Every pass is there now.
+        holder->start = BakeSession::Start::resume;
+        return run(scene, job, *holder);
     });
-    if (!merged) return merged.error();
-    // Every pass is there now.
-    session.start = BakeSession::Start::resume;
-    return bake(scene, job, session);
 }
 
 Result<Bake> rebake_object(const Scene& scene, const BakeJob& job, std::string_view object, Bake there,
                            BakeSession& session) {
+    if (!session.folder.empty())
+        if (auto status = check_folder(session.folder); !status) return status.error();
     BakeJob of_object = job;
     of_object.bake.only_object = std::string(object);
-    return with_threads(job, [&]() -> Result<Bake> {
+    return run_checked(job, [&]() -> Result<Bake> {
+        if (auto status = check_same_options(there.manifest, job); !status) return status.error();
+        const auto holder = locked(session);
+        if (!holder) return holder.error();
+
         // Place, gather and solve the texels of the object alone, without a checkpoint.
-        auto work = place(scene, of_object, session);
+        auto work = place(scene, of_object, *holder);
         if (!work) return work.error();
-        Status status = gather_and_solve(*work, session, {});
+        Status status = gather_and_solve(*work, *holder, {});
         if (!status) return status.error();
 
         // Finish them among the texels that are there, and write all of them.
-        status = finish(*work, job.finish, session, [&](std::vector<LightmapPage>& pages) {
+        status = finish(*work, job.finish, *holder, [&](std::vector<LightmapPage>& pages) {
             fit_codec(pages, work->setup->encoding, session.stop);
             return fill_up_from(there, *work->setup, pages);
         });
@@ -246,19 +304,14 @@ Result<Bake> rebake_object(const Scene& scene, const BakeJob& job, std::string_v
         work->bake.probes = std::move(there.probes);
         work->bake.manifest.statistics = there.manifest.statistics;
         work->bake.manifest.options.only_object.reset();
-        if (status = write(*work, job, session); !status) return status.error();
-
-        // Remove the states, which do not hold the new texels.
-        std::error_code code;
-        const fs::path states = checkpoint_folder(session.folder);
-        for (std::size_t region = 0; fs::remove(region_file(states, region), code);) ++region;
-        return std::move(work->bake);
+        status = write(*work, job, *holder, [&](FilesTogether& files) { return drop_states(files, job, object); });
+        return status ? Result<Bake>(std::move(work->bake)) : status.error();
     });
 }
 
 Result<Preflight> preflight(const Scene& scene, const BakeJob& job, const std::atomic<bool>* stop) {
-    return with_threads(job, [&]() -> Result<Preflight> {
-        if (const auto textures = PageTextures::make(job.bake.codec, job.storages); !textures) return textures.error();
+    return run_checked(job, [&]() -> Result<Preflight> {
+        if (auto status = check_textures(job); !status) return status.error();
         const auto setup = BakeSetup::make(scene, job.bake, stop);
         if (!setup) return setup.error();
         return preflight(**setup, stop, measure_rate((*setup)->atlas, (*setup)->map, *(*setup)->tracer));

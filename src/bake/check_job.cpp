@@ -8,43 +8,68 @@
 namespace lobelia {
 namespace {
 
-/// An error unless low <= value <= high; NaN is outside.
-Status in_range(const char* name, double value, double low, double high) {
-    if (value >= low && value <= high) return Done{};
-    return Error{fmt::format("{} = {:g} is out of range: {:g} to {:g}", name, value, low, high)};
+/// Checks values against ranges, and keeps the first error.
+class RangeCheck {
+  public:
+    /// NaN is in no range.
+    template <class T>
+    void operator()(const char* name, T value, const OptionRange& range) {
+        const auto number = static_cast<double>(value);
+        if (status_ && !(number >= range.low && number <= range.high))
+            status_ = Error{
+                fmt::format("{} = {:.10g} is out of range: {:.10g} to {:.10g}", name, number, range.low, range.high)};
+    }
+    template <class T>
+    void operator()(const char* name, const std::optional<T>& value, const OptionRange& range) {
+        if (value) (*this)(name, *value, range);
+    }
+    [[nodiscard]] Status status() const { return status_; }
+
+  private:
+    Status status_ = Done{};
+};
+
+Status check_probes(const ProbeOptions& probes) {
+    RangeCheck check;
+    check("probe spacing", probes.spacing, ranges::probe_spacing);
+    check("probe levels", probes.levels, ranges::probe_levels);
+    check("probe tolerance", probes.tolerance, ranges::probe_tolerance);
+    check("probe samples", probes.samples, ranges::probe_samples);
+    if (!probes.box) return check.status();
+    const auto& [low, high] = *probes.box;
+    if (!(low.x <= high.x && low.y <= high.y && low.z <= high.z))
+        return Error{"the box of the probes: the first corner must be the lower one"};
+    return check.status();
 }
 
 }  // namespace
 
 Status check(const BakeJob& job) {
     const BakeOptions& bake = job.bake;
-    struct Range {
-        const char* name;
-        double value, low, high;
-    };
-    const ProbeOptions probes = job.probes.value_or(ProbeOptions{});
-    for (const auto& [name, value, low, high] : {
-             Range{"width", static_cast<double>(bake.atlas.width), 1, 16384},
-             Range{"height", static_cast<double>(bake.atlas.height), 1, 16384},
-             Range{"texels per metre", bake.atlas.texels_per_metre.value_or(1), 0.01, 10000},
-             Range{"padding", static_cast<double>(bake.atlas.padding), 0, 64},
-             Range{"samples", static_cast<double>(bake.samples), 1, 1e6},
-             Range{"bounces", static_cast<double>(bake.paths.bounces), 0, 64},
-             Range{"threads", static_cast<double>(bake.threads), 0, 1024},
-             Range{"memory", static_cast<double>(bake.memory), 64 << 20, 1e15},
-             Range{"time", bake.most_seconds.value_or(1), 0.1, 1e7},
-             Range{"target error", bake.target_error.value_or(1), 1e-4, 1},
-             Range{"probe spacing", probes.spacing, 0.001, 10000},
-             Range{"probe levels", static_cast<double>(probes.levels), 0, 6},
-             Range{"probe samples", static_cast<double>(probes.samples), 64, 1e6},
-         })
-        if (auto status = in_range(name, value, low, high); !status) return status;
-    if (bake.samples_per_pass == 0 || bake.samples_per_pass % k_lanes != 0)
+    RangeCheck check;
+    check("width", bake.atlas.width, ranges::side);
+    check("height", bake.atlas.height, ranges::side);
+    check("texels per metre", bake.atlas.texels_per_metre, ranges::texels_per_metre);
+    check("padding", bake.atlas.padding, ranges::padding);
+    check("samples", bake.samples, ranges::samples);
+    check("samples per pass", bake.samples_per_pass, ranges::samples_per_pass);
+    check("bounces", bake.paths.bounces, ranges::bounces);
+    check("threads", bake.threads, ranges::threads);
+    check("memory", bake.memory, ranges::memory);
+    check("time", bake.most_seconds, ranges::seconds);
+    check("target error", bake.target_error, ranges::target_error);
+    check("number of shards", bake.shard.count, ranges::shards);
+    check("samples of the report's pictures", job.report.samples, ranges::picture_samples);
+    check("width of the report's pictures", job.report.width, ranges::side);
+    check("height of the report's pictures", job.report.height, ranges::side);
+    check("uv set", job.scene.uv_set, ranges::uv_set);
+    if (!check.status()) return check.status();
+    if (bake.samples_per_pass % k_lanes != 0)
         return Error{fmt::format("samples per pass = {} is not a multiple of {}", bake.samples_per_pass, k_lanes)};
-    if (bake.shard.count == 0 || bake.shard.index >= bake.shard.count)
+    if (bake.shard.index >= bake.shard.count)
         return Error{
             fmt::format("shard {} of {} does not exist: they are counted from 0", bake.shard.index, bake.shard.count)};
-    return Done{};
+    return job.probes ? check_probes(*job.probes) : Done{};
 }
 
 }  // namespace lobelia

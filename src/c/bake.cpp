@@ -5,14 +5,13 @@
 #include <atomic>
 #include <cstring>
 
-#include "bake/check_job.h"
 #include "c/handles.h"
 
 using namespace lobelia;
 using namespace lobelia::c;
 
 struct lob_scene {
-    Scene scene;
+    LoadedScene loaded;
 };
 
 struct lob_stop {
@@ -97,7 +96,7 @@ lob_status lob_scene_load(const char* path, lob_scene** out) {
         source.path = path;
         auto loaded = load_scene(source);
         if (!loaded) return fail(LOB_BAD_INPUT, loaded.error().message);
-        *out = new lob_scene{std::move(loaded->scene)};
+        *out = new lob_scene{*std::move(loaded)};
         return LOB_OK;
     });
 }
@@ -107,7 +106,9 @@ lob_status lob_scene_set_environment(lob_scene* scene, const lob_environment* en
         if (auto status = check_pointers("lob_scene_set_environment", scene)) return status;
         std::optional<Image> image;
         if (environment != nullptr) image = environment->image;
-        scene->scene.environment = std::move(image);
+        scene->loaded.scene.environment = std::move(image);
+        // An image in memory has no name for the command line.
+        scene->loaded.source = {};
         return LOB_OK;
     });
 }
@@ -142,12 +143,14 @@ lob_status lob_bake_scene(const lob_scene* scene, const lob_bake_options* option
     return guarded([&] {
         if (auto status = check_pointers("lob_bake_scene", scene, out)) return status;
         const lob_bake_options all = complete(options);
-        const BakeJob job = to_job(all);
-        if (const auto valid = check(job); !valid) return fail(LOB_BAD_INPUT, valid.error().message);
+        BakeJob job = to_job(all);
+        job.scene = scene->loaded.source;
         BakeSession session = to_session(all);
-        auto baked = bake(scene->scene, job, session);
-        const bool stopped = all.stop != nullptr && all.stop->flag;
-        if (!baked) return fail(stopped ? LOB_STOPPED : LOB_BAD_INPUT, baked.error().message);
+        session.earlier_warnings = scene->loaded.warnings;
+        auto baked = bake(scene->loaded.scene, job, session);
+        if (!baked)
+            return fail(baked.error().kind == Error::Kind::stopped ? LOB_STOPPED : LOB_BAD_INPUT,
+                        baked.error().message);
         *out = new lob_bake{*std::move(baked)};
         return LOB_OK;
     });
@@ -167,7 +170,7 @@ lob_status lob_bake_write(const lob_bake* bake, const char* folder, const lob_sc
     return guarded([&] {
         if (auto status = check_pointers("lob_bake_write", bake, folder)) return status;
         WriteBakeOptions options;
-        if (scene != nullptr) options.scene = &scene->scene;
+        if (scene != nullptr) options.scene = &scene->loaded.scene;
         const auto written = write_bake(folder, bake->bake, options);
         return written ? LOB_OK : fail(LOB_BAD_INPUT, written.error().message);
     });

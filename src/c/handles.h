@@ -1,4 +1,4 @@
-// What the handles of lobelia_c.h are, and the guard through which every call that can fail passes.
+// The handles of lobelia_c.h, and the guard that wraps every call that can fail.
 #pragma once
 
 #include <memory>

@@ -1,6 +1,4 @@
 // lobelia advise: recommends a codec and a storage for an environment, or for a scene's lightmaps.
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -11,6 +9,7 @@
 #include "cli/environment_input.h"
 #include "cli/options.h"
 #include "cli/verbs.h"
+#include "io/json.h"
 #include "measure/candidates.h"
 #include "report/study_report.h"
 #include "scene/embedded.h"
@@ -59,10 +58,10 @@ Result<Advice> advice_for(const AdviseArguments& arguments) {
 Status write_advice(const Advice& advice, const std::string& subject, const std::filesystem::path& folder) {
     const auto html = study_html(to_study(advice, subject));
     if (!html) return html.error();
-    const std::string json = to_json(advice).dump(1) + "\n";
+    const std::string json = json_text(to_json(advice), 1) + "\n";
     const FileContent files[] = {{folder / "advice.html", *html}, {folder / "advice.json", json}};
     if (auto status = write_into_folder(folder, files); !status) return status;
-    fmt::print("{}\n", (folder / "advice.html").string());
+    print_line((folder / "advice.html").string());
     return Done{};
 }
 
@@ -72,7 +71,7 @@ Status advise_verb(AdviseArguments arguments) {
         if (auto status = check_folder(arguments.out); !status) return status;
     const auto advice = advice_for(arguments);
     if (!advice) return advice.error();
-    fmt::print("{}", to_text(*advice));
+    print_text(to_text(*advice));
     if (arguments.out.empty()) return Done{};
     return write_advice(*advice, std::filesystem::path(arguments.environment.path).filename().string(), arguments.out);
 }
@@ -104,7 +103,7 @@ Verb add_advise(CLI::App& app) {
     command->add_option("--texels", a->texels, "Number of lightmap texels of a scene to measure, spread evenly")
         ->check(CLI::Range(std::size_t{1}, std::size_t{10'000}))
         ->capture_default_str();
-    add_out_option(*command, a->out, "Folder for advice.html and advice.json, with all candidates worth choosing");
+    add_out_option(*command, a->out, "Folder for advice.html and advice.json, with all Pareto-optimal candidates");
     return {command, [a] { return advise_verb(*a); }};
 }
 

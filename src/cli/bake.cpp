@@ -14,7 +14,7 @@ namespace {
 
 /// Prints the preflight, and writes a picture of each page.
 Status print_preflight(const Preflight& checked, const Scene& scene, const std::string& out) {
-    fmt::print("{}", to_text(checked, scene));
+    print_text(to_text(checked, scene));
     std::vector<std::string> pictures;
     std::vector<FileContent> files;
     for (std::size_t page = 0; page < checked.pages.size(); ++page) {
@@ -25,8 +25,17 @@ Status print_preflight(const Preflight& checked, const Scene& scene, const std::
     for (std::size_t page = 0; page < pictures.size(); ++page)
         files.push_back({std::filesystem::path(out) / fmt::format("preflight-{}.png", page), pictures[page]});
     if (auto status = write_into_folder(out, files); !status) return status;
-    for (const FileContent& file : files) fmt::print("{}\n", file.path.string());
+    for (const FileContent& file : files) print_line(file.path.string());
     return Done{};
+}
+
+Status preflight_alone(const BakeJob& job, const std::string& out) {
+    const StopOnInterrupt stop;
+    const auto loaded = load_scene_to_bake(job.scene, stop.flag());
+    if (!loaded) return ended(loaded.error(), stop);
+    for (const auto& warning : loaded->warnings) complain("lobelia: warning: " + warning);
+    const auto checked = preflight(loaded->scene, job, &stop.flag());
+    return checked ? print_preflight(*checked, loaded->scene, out) : ended(checked.error(), stop);
 }
 
 Status bake_fresh(const BakeArguments& arguments) {
@@ -35,22 +44,19 @@ Status bake_fresh(const BakeArguments& arguments) {
     const auto job = job_of(arguments);
     if (!job) return job.error();
     if (auto status = check_folder(arguments.out); !status) return status;
+    if (arguments.preflight) return preflight_alone(*job, arguments.out);
     const StopOnInterrupt stop;
-    const auto loaded = load_scene_to_bake(job->scene, stop.flag());
-    if (!loaded) return ended(loaded.error(), stop);
-    const Scene& scene = loaded->scene;
-    if (arguments.preflight) {
-        for (const auto& warning : loaded->warnings) complain("lobelia: warning: " + warning);
-        const auto checked = preflight(scene, *job, &stop.flag());
-        return checked ? print_preflight(*checked, scene, arguments.out) : ended(checked.error(), stop);
-    }
-    BakeSession session = session_in(arguments.out, stop);
-    session.earlier_warnings = loaded->warnings;
-    return finish_session(scene, *job, bake(scene, *job, session), session);
+    auto session = session_in(arguments.out);
+    if (!session) return session.error();
+    const auto loaded = load_scene_in(*session, job->scene, stop);
+    if (!loaded) return loaded.error();
+    return finish_session(loaded->scene, *job, bake(loaded->scene, *job, *session), *session);
 }
 
 /// Continues a bake, or bakes an object again. Only threads and the time limit are this session's own.
 Status bake_again(const BakeArguments& arguments) {
+    auto session = session_in(arguments.out);
+    if (!session) return session.error();
     auto job = read_job(arguments.out);
     if (!job) return job.error();
     const std::string& path = arguments.job.scene.path;
@@ -61,20 +67,18 @@ Status bake_again(const BakeArguments& arguments) {
     job->bake.most_seconds = arguments.job.bake.most_seconds;
     job->bake.samples += arguments.add_samples;
     const StopOnInterrupt stop;
-    const auto loaded = load_scene_to_bake(job->scene, stop.flag());
-    if (!loaded) return ended(loaded.error(), stop);
+    const auto loaded = load_scene_in(*session, job->scene, stop);
+    if (!loaded) return loaded.error();
     const Scene& scene = loaded->scene;
-    BakeSession session = session_in(arguments.out, stop);
-    session.earlier_warnings = loaded->warnings;
     if (arguments.rebake_object.empty()) {
-        session.start = BakeSession::Start::resume;
-        return finish_session(scene, *job, bake(scene, *job, session), session);
+        session->start = BakeSession::Start::resume;
+        return finish_session(scene, *job, bake(scene, *job, *session), *session);
     }
     auto there = read_bake(arguments.out);
     if (!there) return there.error();
-    const auto baked = rebake_object(scene, *job, arguments.rebake_object, *std::move(there), session);
+    const auto baked = rebake_object(scene, *job, arguments.rebake_object, *std::move(there), *session);
     job->bake.only_object = arguments.rebake_object;
-    return finish_session(scene, *job, baked, session);
+    return finish_session(scene, *job, baked, *session);
 }
 
 }  // namespace

@@ -1,14 +1,13 @@
-// From the options of lobelia bake to its job.
+// Converts the options of lobelia bake to its job.
 #include <charconv>
 #include <cmath>
 
+#include "bake/check_job.h"
 #include "cli/bake_options.h"
 #include "cli/common.h"
 
 namespace lobelia::cli {
 namespace {
-
-constexpr std::size_t k_most_side = 16384;
 
 /// Parses "0/4".
 Result<Shard> parse_shard(const std::string& text, Shard::By by) {
@@ -19,7 +18,8 @@ Result<Shard> parse_shard(const std::string& text, Shard::By by) {
     const bool good = index_code == std::errc() && slash != end && *slash == '/';
     const auto [rest, count_code] =
         good ? std::from_chars(slash + 1, end, shard.count) : std::from_chars_result{end, {}};
-    if (!good || count_code != std::errc() || rest != end || shard.index >= shard.count || shard.count > 65536)
+    if (!good || count_code != std::errc() || rest != end || shard.index >= shard.count ||
+        shard.count > ranges::shards.high)
         return Error{"--shard: \"" + text + "\" is not a part such as 0/4, counted from 0"};
     return shard;
 }
@@ -64,7 +64,8 @@ Result<std::optional<std::vector<std::string>>> parse_storages(const std::vector
 Result<LatLong> parse_size(const char* option, const std::string& text) {
     const auto size = parse_grid(text);
     if (!size) return Error{std::string(option) + ": " + size.error().message};
-    if (size->width > k_most_side || size->height > k_most_side)
+    constexpr auto most = static_cast<std::size_t>(ranges::side.high);
+    if (size->width > most || size->height > most)
         return Error{std::string(option) + ": \"" + text + "\" is larger than 16384x16384"};
     return *size;
 }

@@ -1,15 +1,22 @@
 // Options of lobelia bake, in groups.
 #include "cli/bake_options.h"
 
+#include "bake/check_job.h"
 #include "cli/common.h"
 #include "cli/lobe_files.h"
 #include "cli/options.h"
 #include "cli/scene_input.h"
+#include "io/texture/container.h"
 
 namespace lobelia::cli {
 namespace {
 
-constexpr std::uint32_t k_most_samples = 1'000'000;
+/// Checks a whole number.
+template <class T>
+CLI::Range whole_in(const OptionRange& range) {
+    return {static_cast<T>(range.low), static_cast<T>(range.high)};
+}
+CLI::Validator number_in(const OptionRange& range) { return cli::number_in(range.low, range.high); }
 
 /// Adds options to one group of the help.
 class Group {
@@ -52,13 +59,13 @@ void add_transport_options(CLI::App& command, BakeArguments& a) {
     BakeOptions& bake = a.job.bake;
     Group group(command, "Light transport");
     group.with_default("--samples", bake.samples, "Samples per texel, rounded up to whole passes of 16")
-        ->check(CLI::Range(1u, k_most_samples));
+        ->check(whole_in<unsigned>(ranges::samples));
     group
         .option("--target-error", bake.target_error,
                 "Stop sampling a texel when its relative standard error is below this; --samples is the maximum")
-        ->check(number_in(1e-4, 1));
+        ->check(number_in(ranges::target_error));
     group.with_default("--bounces", bake.paths.bounces, "Maximum number of surfaces between light source and texel")
-        ->check(CLI::Range(0, 64));
+        ->check(whole_in<int>(ranges::bounces));
     group.with_default("--seed", bake.paths.seed, "Random seed");
     group.flag("--no-next-event", a.no_next_event, "Trace no shadow rays (slow; for comparison)");
     group.flag("--no-roulette", a.no_roulette, "Trace weak paths to the end (slow; for comparison)");
@@ -72,11 +79,11 @@ void add_page_options(CLI::App& command, BakeArguments& a) {
     group
         .option("--texels-per-metre", atlas.texels_per_metre,
                 "Size each object by its area instead, and pack objects into pages")
-        ->check(number_in(0.01, 10000));
+        ->check(number_in(ranges::texels_per_metre));
     group.choice("--layout", a.layout, {"automatic", "shared", "packed"},
                  "shared: all objects lie in one UV square; packed: each object has its own");
     group.with_default("--padding", atlas.padding, "Texels between packed objects")
-        ->check(CLI::Range(std::size_t{0}, std::size_t{64}));
+        ->check(whole_in<std::size_t>(ranges::padding));
     group.flag("--preflight", a.preflight, "Only check the lightmap UVs and estimate the cost; pictures go to --out");
 }
 
@@ -92,32 +99,41 @@ void add_probe_options(CLI::App& command, BakeArguments& a) {
     group.option("--probes", a.probe_box,
                  "Also bake probes, in the box of the \"scene\" or in one given by two corners, x,y,z,x,y,z [m]");
     group.option("--probe-spacing", a.probe_spacing, "Probe grid spacing in metres, coarsest level (default: 1)")
-        ->check(number_in(0.001, 10000));
+        ->check(number_in(ranges::probe_spacing));
     group.with_default("--probe-codec", a.probes.codec, "Codec for probes (must be spherical)")
         ->transform(CLI::Validator(replace_lobe_file, ""));
     group.with_default("--probe-levels", a.probes.levels, "Maximum number of subdivisions of a grid cell")
-        ->check(CLI::Range(0, 6));
+        ->check(whole_in<int>(ranges::probe_levels));
     group.with_default("--probe-samples", a.probes.samples, "Samples per probe")
-        ->check(CLI::Range(64u, k_most_samples));
+        ->check(whole_in<unsigned>(ranges::probe_samples));
 }
 
 void add_session_options(CLI::App& command, BakeArguments& a) {
     BakeOptions& bake = a.job.bake;
     Group group(command, "Sessions");
     group.with_default("-t,--threads", bake.threads, "Number of threads, 0: one per processor")
-        ->check(CLI::Range(0u, 1024u));
+        ->check(whole_in<unsigned>(ranges::threads));
     group.with_default("--memory", a.memory, "Memory budget, such as 4G; larger bakes run region by region");
     group.option("--time", bake.most_seconds, "Stop after the first pass that exceeds this many seconds")
-        ->check(number_in(0.1, 1e7));
-    group.flag("--resume", a.resume, "Continue the stopped bake in --out with its options");
-    group.option("--add-samples", a.add_samples, "Continue the bake in --out with this many more samples per texel")
-        ->check(CLI::Range(1u, k_most_samples));
+        ->check(number_in(ranges::seconds));
+    group.flag("--resume", a.resume, "Continue the stopped bake or merge in --out with its options");
+    group
+        .option("--add-samples", a.add_samples,
+                "Continue the finished bake in --out with this many more samples per texel")
+        ->check(whole_in<unsigned>(ranges::samples));
     group.option("--rebake-object", a.rebake_object,
                  "Bake one object of the finished bake in --out again, in the scene as it is now; by name, or by "
-                 "index as #3");
+                 "index as #3; the bake cannot be resumed afterwards");
     group.option("--shard", a.shard, "Bake one part of several, such as 0/4; lobelia merge puts them together");
     group.choice("--shard-by", a.shard_by, {"tiles", "samples"},
-                 "tiles: the merged bake has the same bits as a whole one; samples: up to rounding");
+                 "tiles: the merged bake has the same bits as a whole one if all machines use one instruction set "
+                 "(LOBELIA_SIMD); samples: up to rounding");
+}
+
+std::vector<std::string> container_names() {
+    std::vector<std::string> names;
+    for (const TextureContainer& container : texture_containers()) names.emplace_back(container.name);
+    return names;
 }
 
 void add_output_options(CLI::App& command, BakeArguments& a) {
@@ -126,13 +142,14 @@ void add_output_options(CLI::App& command, BakeArguments& a) {
     group.choice("--precision", a.precision, {"half", "float"}, "Format of the EXR pages");
     group
         .option("--storage", a.storages,
-                "Write KTX2 textures in this storage, see lobelia list --storages; repeatable; none: no textures "
+                "Write textures in this storage, see lobelia list --storages; repeatable; none: no textures "
                 "(default: float16, and ratio8 where it is usable)")
         ->allow_extra_args(false);
+    group.choice("--container", a.job.container, container_names(), "File format of the textures");
     group.flag("--no-report,--no-page", a.no_report, "Do not make the HTML report");
     group.with_default("--picture-size", a.picture_size, "Size of the report's pictures, WxH");
     group.with_default("--picture-samples", a.job.report.samples, "Samples per pixel of the report's pictures")
-        ->check(CLI::Range(1u, 65536u));
+        ->check(whole_in<unsigned>(ranges::picture_samples));
 }
 
 }  // namespace

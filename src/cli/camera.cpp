@@ -60,7 +60,7 @@ Result<Camera> find_camera(const Scene& scene, const std::string& text) {
         if (numbers->front() < static_cast<float>(scene.cameras.size()))
             return scene.cameras[static_cast<std::size_t>(numbers->front())];
     }
-    return Error{fmt::format("--camera: \"{}\" is none of {}'s cameras ({}) and no \"px,py,pz,tx,ty,tz[,fov]\"", text,
+    return Error{fmt::format("--camera: \"{}\" is neither a camera of {} ({}) nor \"px,py,pz,tx,ty,tz[,fov]\"", text,
                              scene.name, names.empty() ? "it has none" : fmt::format("{}", fmt::join(names, ", ")))};
 }
 

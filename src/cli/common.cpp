@@ -1,4 +1,4 @@
-// Grid sizes, messages, progress.
+// Grid sizes, progress.
 #include "cli/common.h"
 
 #include <fmt/core.h>
@@ -6,6 +6,9 @@
 
 #include <charconv>
 #include <chrono>
+
+#include "bake/check_job.h"
+#include "io/printable.h"
 
 namespace lobelia::cli {
 
@@ -29,15 +32,10 @@ Result<std::size_t> parse_bytes(std::string_view option, const std::string& text
     const auto [rest, code] = std::from_chars(text.data(), end, value);
     const std::string unit(rest, end);
     const double factor = unit.empty() ? 1 : unit == "M" ? 1 << 20 : unit == "G" ? 1 << 30 : 0;
-    constexpr double least = 64 << 20, most = 1e15;
+    const auto [least, most] = ranges::memory;
     if (code != std::errc() || factor == 0 || !(value * factor >= least) || !(value * factor <= most))
         return Error{fmt::format("{}: \"{}\" is not an amount such as 512M or 4G (64M at least)", option, text)};
     return static_cast<std::size_t>(value * factor);
-}
-
-void complain(const std::string& line) {
-    std::fputs((line + "\n").c_str(), stderr);
-    std::fflush(stderr);
 }
 
 LabelledProgress labelled_progress_bar() {
@@ -48,8 +46,8 @@ LabelledProgress labelled_progress_bar() {
         if (seconds < 1 || (done >= 1 && !shown)) return;
         constexpr int width = 40;
         const int filled = static_cast<int>(done * width);
-        std::string line =
-            fmt::format("\r[{:=<{}}{: <{}}] {:3.0f} % {}\033[K", "", filled, "", width - filled, 100 * done, text);
+        std::string line = fmt::format("\r[{:=<{}}{: <{}}] {:3.0f} % {}\033[K", "", filled, "", width - filled,
+                                       100 * done, printable(text));
         if (done >= 1 - 1e-9) line += "\r\033[K";
         std::fputs(line.c_str(), stderr);
         std::fflush(stderr);

@@ -1,10 +1,11 @@
-// What several verbs share: grid sizes, output, progress.
+// Shared by several verbs: grid sizes, output, progress.
 #pragma once
 
 #include <functional>
 #include <string>
 #include <string_view>
 
+#include "cli/output.h"
 #include "io/folders.h"
 #include "io/read_file.h"
 #include "io/write_file.h"
@@ -18,9 +19,6 @@ namespace lobelia::cli {
 
 /// Parses "4G", "512M" or a number of bytes, at least 64 MiB; errors name the option.
 [[nodiscard]] Result<std::size_t> parse_bytes(std::string_view option, const std::string& text);
-
-/// Prints a line on stderr; if stderr is closed, the line is lost and nothing else changes.
-void complain(const std::string& line);
 
 /// A bar on stderr for work that takes longer than a second; null if stderr is not a terminal.
 [[nodiscard]] Progress progress_bar();

@@ -1,6 +1,4 @@
 // lobelia compare: codecs on an environment, as an HTML report and a JSON file.
-#include <fmt/core.h>
-
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -9,6 +7,7 @@
 #include "cli/lobe_files.h"
 #include "cli/options.h"
 #include "cli/verbs.h"
+#include "io/json.h"
 #include "measure/compare_job.h"
 #include "measure/comparison_text.h"
 #include "report/comparison_report.h"
@@ -29,12 +28,13 @@ struct CompareArguments {
 Status write_report(const CompareArguments& arguments, const Comparison& comparison, const EnvironmentInfo& info) {
     const std::filesystem::path folder = arguments.out;
     const auto report = to_json(comparison, info);
-    const std::string text = report.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+    const std::string text = json_text(report, 1) + "\n";
     const std::string html = arguments.json_only ? "" : comparison_html(report, to_pictures(comparison));
     std::vector<FileContent> files = {{folder / "report.json", text}};
     if (!arguments.json_only) files.push_back({folder / "report.html", html});
     if (auto status = write_into_folder(folder, files); !status) return status;
-    fmt::print("{}{}{}\n", summary_text(comparison), stored_text(comparison), files.back().path.string());
+    print_text(summary_text(comparison) + stored_text(comparison));
+    print_line(files.back().path.string());
     return Done{};
 }
 
@@ -45,7 +45,7 @@ Status compare_verb(CompareArguments arguments) {
     job.options.pictures = !arguments.json_only;
     job.options.convergence = !arguments.json_only && !arguments.no_convergence;
 
-    // Names first, then files: refuse early whatever can be refused early.
+    // Check names before files, so that errors come early.
     if (auto status = check(job); !status) return status;
     const auto environment = load(arguments.environment);
     if (!environment) return environment.error();
@@ -65,17 +65,17 @@ Verb add_compare(CLI::App& app) {
     add_sampling_options(*command, a->job.options.sampling);
     add_out_option(*command, a->out, "Folder of the report");
     CodecFilter& filter = a->job.codecs;
-    CLI::Option* codec =
-        command->add_option("--codec", filter.codecs, "Only these, as basis/encoder/evaluator (default: all listed)");
+    CLI::Option* codec = command->add_option("--codec", filter.codecs,
+                                             "Codecs to compare, as basis/encoder/evaluator (default: all listed)");
     CLI::Option* basis = command->add_option("--basis", filter.bases,
-                                             "Only these bases, which need not be listed (see lobelia list --axes)");
-    CLI::Option* encoder = command->add_option("--encoder", filter.encoders, "Only these encoders");
-    CLI::Option* evaluator = command->add_option("--evaluator", filter.evaluators, "Only these evaluators");
+                                             "Bases to compare; they need not be listed (see lobelia list --axes)");
+    CLI::Option* encoder = command->add_option("--encoder", filter.encoders, "Encoders to compare");
+    CLI::Option* evaluator = command->add_option("--evaluator", filter.evaluators, "Evaluators to compare");
     for (CLI::Option* named : {codec, basis}) named->transform(CLI::Validator(replace_lobe_file, ""));
     for (CLI::Option* option : {basis, encoder, evaluator}) codec->excludes(option);
-    CLI::Option* storage = command->add_option("--storage", a->job.storages,
-                                               "Measure the coefficients as stored, too; all: in every compatible "
-                                               "storage (see lobelia list --axes)");
+    CLI::Option* storage =
+        command->add_option("--storage", a->job.storages,
+                            "Storages to measure as well; all: every compatible one (see lobelia list --axes)");
     add_enum_option<Table>(
         *command, "--recipe", a->table, {{"published", Table::published}, {"updated", Table::updated}},
         "Reproduce a published table instead: published (2018, first version) or updated (2018, corrected)")
@@ -83,7 +83,7 @@ Verb add_compare(CLI::App& app) {
         ->excludes(codec, basis, encoder, evaluator, storage, command->get_option("--sequence"),
                    command->get_option("--samples"), command->get_option("--seed"));
     command->add_flag("--json-only", a->json_only, "Write report.json only, without pictures and convergence");
-    command->add_flag("--no-convergence", a->no_convergence, "Leave the convergence plots out");
+    command->add_flag("--no-convergence", a->no_convergence, "Leave out the convergence plots");
     return {command, [a] { return compare_verb(*a); }};
 }
 

@@ -46,10 +46,10 @@ Verb add_convert(CLI::App& app) {
         ->check(CLI::IsMember({"x", "y", "z"}));
     command
         ->add_option("--codec", a->options.codec,
-                     "Codec that the written file names (default: the first listed one of its degree)")
+                     "Codec named in the output (default: the first listed one of its degree)")
         ->transform(CLI::Validator(replace_lobe_file, ""))
         ->excludes(to);
-    add_out_option(*command, a->out, "The file to write")->required();
+    add_out_option(*command, a->out, "Output file")->required();
     return {command, [a] { return convert_verb(*a); }};
 }
 

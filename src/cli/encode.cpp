@@ -35,7 +35,7 @@ Verb add_encode(CLI::App& app) {
     command->add_option("--codec", a->codec, "basis/encoder/evaluator, see lobelia list")
         ->transform(CLI::Validator(replace_lobe_file, ""))
         ->required();
-    add_out_option(*command, a->out, "The file to write")->required();
+    add_out_option(*command, a->out, "Output file")->required();
     return {command, [a] { return encode_verb(*a); }};
 }
 

@@ -1,8 +1,6 @@
 // The part of lobelia eval that reads whole bakes.
 #include "cli/eval_bake.h"
 
-#include <fmt/core.h>
-
 #include <thread>
 
 #include "bake/write/irradiance_files.h"
@@ -25,7 +23,7 @@ Status eval_bake(const EvalBakeOptions& options) {
     if (!read) return read.error();
     const auto files = write_irradiance(options.folder, *read, {options.evaluator});
     if (!files) return files.error();
-    for (const auto& file : *files) fmt::print("{}\n", file.string());
+    for (const auto& file : *files) print_line(file.string());
     return Done{};
 }
 

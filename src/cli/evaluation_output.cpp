@@ -33,7 +33,7 @@ Result<Directions> read_normals(const std::string& path) {
             return Error{fmt::format("{}:{}: expected a direction \"x y z\"", path, number)};
         normals.push_back(normalize(n));
     }
-    if (normals.empty()) return Error{path + ": no normals in it"};
+    if (normals.empty()) return Error{path + ": contains no normals"};
     Directions result(normals.size());
     for (std::size_t i = 0; i < normals.size(); ++i) set_entry(result.view(), i, normals[i]);
     return result;
@@ -59,7 +59,7 @@ void add_evaluation_options(CLI::App& command, EvaluationOptions& options) {
     command.add_option("--exposure", options.exposure, "Exposure of .png output in EV; they show E / pi, or L")
         ->check(number_in(-32, 32))
         ->capture_default_str();
-    add_out_option(command, options.out, "The file to write: .exr, .csv with x,y,z,r,g,b, or .png")->required();
+    add_out_option(command, options.out, "Output file: .exr, .csv with x,y,z,r,g,b, or .png")->required();
 }
 
 Result<Target> target_of(const EvaluationOptions& options, Domain domain) {

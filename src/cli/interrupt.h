@@ -1,4 +1,4 @@
-// Ctrl-C: work is asked to stop, cleans up, and the program ends as the signal would have ended it.
+// Ctrl-C: stops the work, cleans up, and ends the program as the signal would have.
 #pragma once
 
 #include <array>

@@ -1,15 +1,16 @@
 // lobelia list: every codec, or what codecs are made of.
-#include <fmt/core.h>
-
 #include <algorithm>
 
 #include "cli/lobe_files.h"
 #include "cli/options.h"
+#include "cli/output.h"
 #include "cli/verbs.h"
 #include "core/storage/layout_text.h"
+#include "io/texture/container.h"
 #include "lobelia/codec.h"
 #include "lobelia/storage.h"
 #include "measure/bases_document.h"
+#include "scene/light/light_kind.h"
 
 namespace lobelia::cli {
 namespace {
@@ -42,8 +43,11 @@ void print_evaluators() {
         }
     }
     std::stable_sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) { return a.name < b.name; });
-    fmt::print("evaluators: valid range, largest error, bases\n");
-    for (const Entry& e : entries) fmt::print("  {:<20} {}\n  {:<20}   {}\n", e.name, e.accuracy, "", e.bases);
+    print_line("evaluators: valid range, largest error, bases");
+    for (const Entry& e : entries) {
+        print_line("  {:<20} {}", e.name, e.accuracy);
+        print_line("  {:<20}   {}", "", e.bases);
+    }
 }
 
 /// The specular evaluators with their bases; "sampled" works with all.
@@ -59,25 +63,32 @@ void print_specular() {
                 known->second += ", " + basis_name;
         }
     evaluators.emplace_back("sampled", "every basis");
-    fmt::print("specular evaluators\n");
-    for (const auto& [name, bases] : evaluators) fmt::print("  {:<20} {}\n", name, bases);
+    print_line("specular evaluators");
+    for (const auto& [name, bases] : evaluators) print_line("  {:<20} {}", name, bases);
 }
 
 void print_axes() {
-    fmt::print("bases\n");
-    for (const auto& name : basis_names()) fmt::print("  {:<20} {}\n", name, make_basis(name).value()->description());
-    for (const auto& [pattern, meaning] : basis_name_patterns()) fmt::print("  {:<20} {}\n", pattern, meaning);
-    fmt::print("  {:<20} {}\n", "sg:FILE, sgh:FILE",
+    print_line("bases");
+    for (const auto& name : basis_names()) print_line("  {:<20} {}", name, make_basis(name).value()->description());
+    for (const auto& [pattern, meaning] : basis_name_patterns()) print_line("  {:<20} {}", pattern, meaning);
+    print_line("  {:<20} {}", "sg:FILE, sgh:FILE",
                "on the command line: lobes from a file, a line \"x y z sharpness\" each");
-    fmt::print("encoders\n");
-    for (const auto& name : encoder_names()) fmt::print("  {}\n", name);
-    fmt::print("encoders for study, not in the list of codecs\n");
-    for (const auto& name : encoder_variant_names()) fmt::print("  {}\n", name);
+    print_line("encoders");
+    for (const auto& name : encoder_names()) print_line("  {}", name);
+    print_line("encoders for study, not in the list of codecs");
+    for (const auto& name : encoder_variant_names()) print_line("  {}", name);
     print_evaluators();
     print_specular();
-    fmt::print("storages\n");
-    for (const Storage& storage : storages()) fmt::print("  {:<20} {}\n", storage.name, storage.description);
-    fmt::print("A codec is one of each, basis/encoder/evaluator; lobelia list prints all {} of the sensible product.\n",
+    print_line("storages");
+    for (const Storage& storage : storages()) print_line("  {:<20} {}", storage.name, storage.description);
+    print_line("pixel formats of storages");
+    for (const PixelFormat format : pixel_formats()) print_line("  {}", info(format).name);
+    print_line("texture containers");
+    for (const TextureContainer& container : texture_containers())
+        print_line("  {:<20} {}", container.name, container.description);
+    print_line("lights of scenes, besides emissive surfaces and the environment");
+    for (const PunctualLight::Kind kind : light_kinds()) print_line("  {}", light_kind(kind).name);
+    print_line("A codec is one of each, basis/encoder/evaluator; lobelia list prints the {} useful combinations.",
                all_codecs().size());
 }
 
@@ -92,12 +103,12 @@ Result<CoefficientTraits> traits_of(const std::string& name) {
 }
 
 void print_layout(const Storage& storage, const TextureLayout& layout) {
-    fmt::print("{:<14} {} bytes for a texel: {}\n", storage.name, bytes_per_texel(layout), storage.description);
+    print_line("{:<14} {} bytes for a texel: {}", storage.name, bytes_per_texel(layout), storage.description);
     for (const auto& texture : layout.textures) {
         std::string channels;
         for (const StoredChannel& channel : texture.channels)
             channels += (channels.empty() ? "" : ", ") + channel_text(channel);
-        fmt::print("  {:<10} {:<14}{}{}\n", texture.name, info(texture.format).name, channels,
+        print_line("  {:<10} {:<14}{}{}", texture.name, info(texture.format).name, channels,
                    texture.subsampling == 1 ? "" : ", for 2 x 2 texels");
     }
 }
@@ -112,21 +123,21 @@ Status print_layouts(const std::string& name, Output output) {
         if (output == Output::text) print_layout(storage, layout);
         json += fmt::format("{}\n \"{}\": {}", json.empty() ? "" : ",", storage.name, layout_json(layout));
     }
-    if (output == Output::json) fmt::print("{{{}\n}}\n", json);
+    if (output == Output::json) print_text("{" + json + "\n}\n");
     return Done{};
 }
 
 }  // namespace
 
 Verb add_list(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("list", "Print the codecs, or the parts that they are made of");
+    CLI::App* command = app.add_subcommand("list", "List codecs, or their parts");
     auto options = std::make_shared<ListArguments>();
     CLI::Option* axes =
-        command->add_flag("--axes", options->axes, "List bases, encoders, evaluators and storages with descriptions");
+        command->add_flag("--axes", options->axes, "List bases, encoders, evaluators, storages and the other lists");
     command->add_flag("--markdown", options->markdown, "Write docs/bases.md to standard output")->excludes(axes);
-    auto* layouts = command->add_option("--storages", options->storages,
-                                        "List the textures in which each compatible storage keeps the coefficients of "
-                                        "this basis or codec");
+    auto* layouts =
+        command->add_option("--storages", options->storages,
+                            "List the textures of each storage that is compatible with this basis or codec");
     layouts->transform(CLI::Validator(replace_lobe_file, ""));
     command->add_flag("--json", options->json, "Print the textures as JSON")->needs(layouts);
     return {command, [options, layouts]() -> Status {
@@ -135,9 +146,9 @@ Verb add_list(CLI::App& app) {
                 if (options->axes)
                     print_axes();
                 else if (options->markdown)
-                    fmt::print("{}", bases_markdown());
+                    print_text(bases_markdown());
                 else
-                    for (const auto& codec : all_codecs()) fmt::print("{}\n", codec.str());
+                    for (const auto& codec : all_codecs()) print_line(codec.str());
                 return Done{};
             }};
 }

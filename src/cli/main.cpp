@@ -1,15 +1,18 @@
 // The lobelia command: chooses the verb, prints errors, returns 0, or 2 for bad input.
-#include <fmt/core.h>
-
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <new>
+#include <sstream>
 #include <system_error>
 
 #include <CLI/CLI.hpp>
 
-#include "cli/common.h"
+#include "cli/output.h"
 #include "cli/verbs.h"
+#include "lobelia/simd.h"
 
 namespace {
 
@@ -37,13 +40,38 @@ and measures how wrong each choice is.
 lobelia -h lists all verbs, lobelia VERB -h all options of a verb.
 )";
 
+std::string simd_names() {
+    std::string names;
+    for (const std::string& name : lobelia::simd_targets()) names += (names.empty() ? "" : ", ") + name;
+    return names;
+}
+
+/// Uses the instruction set that the environment variable LOBELIA_SIMD names, if it names one.
+lobelia::Status choose_simd_target() {
+    const char* name = std::getenv("LOBELIA_SIMD");
+    if (name == nullptr || *name == '\0') return lobelia::Done{};
+    auto status = lobelia::use_simd_target(name);
+    return status ? std::move(status) : lobelia::Error{"LOBELIA_SIMD: " + status.error().message};
+}
+
 /// Parses the command line and runs the verb.
 int run(CLI::App& app, const std::vector<lobelia::cli::Verb>& verbs, int argc, char** argv) {
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
-        if (error.get_exit_code() == 0) return app.exit(error);
-        lobelia::cli::complain(fmt::format("lobelia: {}\nRun with -h for the options.", error.what()));
+        if (error.get_exit_code() == 0) {
+            // Help, or the version.
+            std::ostringstream text;
+            app.exit(error, text, text);
+            lobelia::cli::print_text(text.str());
+            return 0;
+        }
+        lobelia::cli::complain(std::string("lobelia: ") + error.what());
+        lobelia::cli::complain("Run with -h for the options.");
+        return k_bad_input;
+    }
+    if (const auto status = choose_simd_target(); !status) {
+        lobelia::cli::complain("lobelia: " + status.error().message);
         return k_bad_input;
     }
     for (const auto& verb : verbs) {
@@ -52,7 +80,7 @@ int run(CLI::App& app, const std::vector<lobelia::cli::Verb>& verbs, int argc, c
         if (!status) lobelia::cli::complain("lobelia: " + status.error().message);
         return status ? 0 : k_bad_input;
     }
-    fmt::print("{}", k_short_help);
+    lobelia::cli::print_text(k_short_help);
     return 0;
 }
 
@@ -66,7 +94,11 @@ int main(int argc, char** argv) {
     app.set_version_flag("--version", std::string("lobelia ") + LOBELIA_VERSION);
     app.require_subcommand(0, 1);
     app.get_formatter()->column_width(36);
-    app.footer("lobelia VERB -h lists the options of a verb; lobelia alone shows examples.");
+    app.footer(
+        "lobelia VERB -h lists the options of a verb; lobelia alone shows examples.\n"
+        "The environment variable LOBELIA_SIMD sets the instruction set, so that several machines compute the same "
+        "bits: " +
+        simd_names() + " on this one.");
     std::vector<lobelia::cli::Verb> verbs;
 #define LOBELIA_ADD_VERB(name) verbs.push_back(lobelia::cli::add_##name(app));
     LOBELIA_VERBS(LOBELIA_ADD_VERB)
@@ -74,16 +106,17 @@ int main(int argc, char** argv) {
 
     try {
         const int code = run(app, verbs, argc, argv);
-        if (std::fflush(stdout) != 0) throw std::system_error(errno, std::generic_category(), "standard output");
+        lobelia::cli::flush_output();
         return code;
-    } catch (const std::system_error& error) {
+    } catch (const lobelia::cli::OutputFailure& failure) {
         // The reader closed the pipe: success.
-        if (error.code() == std::errc::broken_pipe) return 0;
-        lobelia::cli::complain(std::string("lobelia: ") + error.what());
+        if (failure.code == EPIPE) return 0;
+        lobelia::cli::complain(std::string("lobelia: ") + failure.what());
     } catch (const std::bad_alloc&) {
         lobelia::cli::complain("lobelia: not enough memory");
     } catch (const std::exception& error) {
-        lobelia::cli::complain(std::string("lobelia: ") + error.what());
+        lobelia::cli::complain(std::string("lobelia: an internal error; please report it, with the command: ") +
+                               error.what());
     }
     return k_bad_input;
 }

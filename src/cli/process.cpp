@@ -102,7 +102,7 @@ Result<Finished> run_program(const std::vector<std::string>& arguments, std::chr
         if (const bool late = Clock::now() > deadline; late || stop) {
             kill(-*child, SIGKILL);
             waitpid(*child, &status, 0);
-            if (!late) return Error{"stopped"};
+            if (!late) return Error{"stopped", Error::Kind::stopped};
             return Error{fmt::format("{} was stopped: it took longer than {} s", arguments[0], most.count())};
         }
         std::this_thread::sleep_for(pause);
@@ -123,7 +123,7 @@ namespace {
 constexpr std::string_view k_folder_prefix = "lobelia-run-";
 
 /// Opens a folder, not a link to one, and tries to lock it; not open where that fails.
-io::Descriptor lock_folder(const std::filesystem::path& folder) {
+io::Descriptor open_locked(const std::filesystem::path& folder) {
     io::Descriptor lock(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC));
     if (lock.is_open() && ::flock(lock.get(), LOCK_EX | LOCK_NB) != 0) lock.close();
     return lock;
@@ -134,7 +134,7 @@ void remove_abandoned(const std::filesystem::path& where) {
     std::error_code code;
     for (std::filesystem::directory_iterator entry(where, code), end; !code && entry != end; entry.increment(code)) {
         if (!entry->path().filename().string().starts_with(k_folder_prefix)) continue;
-        const io::Descriptor lock = lock_folder(entry->path());
+        const io::Descriptor lock = open_locked(entry->path());
         struct stat status {};
         if (!lock.is_open() || ::fstat(lock.get(), &status) != 0 || status.st_uid != ::geteuid()) continue;
         std::error_code ignored;
@@ -154,7 +154,7 @@ Result<TemporaryFolder> TemporaryFolder::make() {
     for (int i = 0; i < k_attempts; ++i) {
         std::string name = (where / (std::string(k_folder_prefix) + "XXXXXX")).string();
         if (mkdtemp(name.data()) == nullptr) break;
-        io::Descriptor lock = lock_folder(name);
+        io::Descriptor lock = open_locked(name);
         struct stat status {};
         if (lock.is_open() && ::fstat(lock.get(), &status) == 0 && status.st_nlink > 0)
             return TemporaryFolder(name, std::move(lock));

@@ -38,12 +38,13 @@ Status scene_verb(const SceneArguments& options) {
 
 Verb add_scene(CLI::App& app) {
     auto options = std::make_shared<SceneArguments>();
-    CLI::App* command = app.add_subcommand("scene", "Write a scene that the program carries as a glTF file");
-    command->add_option("NAME", options->name, fmt::format("Which one: {}", fmt::join(embedded_scene_names(), ", ")))
+    CLI::App* command = app.add_subcommand("scene", "Write an embedded scene as a glTF file");
+    command
+        ->add_option("NAME", options->name, fmt::format("Embedded scene: {}", fmt::join(embedded_scene_names(), ", ")))
         ->required();
-    command->add_option("-o,--out", options->out, "The file to write, .glb")->required();
+    command->add_option("-o,--out", options->out, "Output file, .glb")->required();
     command->add_option("--environment", options->environment,
-                        "Its environment, which glTF cannot hold, as another file (.exr)");
+                        "Also write its environment, which glTF cannot store, to this file (.exr)");
     return {command, [options] { return scene_verb(*options); }};
 }
 

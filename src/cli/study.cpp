@@ -1,6 +1,4 @@
 // lobelia study: tables and graphs of formulae, encoders and bakes.
-#include <fmt/core.h>
-
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -10,6 +8,7 @@
 #include "cli/options.h"
 #include "cli/scene_input.h"
 #include "cli/verbs.h"
+#include "io/json.h"
 #include "measure/study/studies.h"
 #include "measure/study/study_bake.h"
 #include "measure/study/study_encoders.h"
@@ -34,10 +33,11 @@ Status write_study(const Result<Study>& study, const std::filesystem::path& fold
     const auto html = study_html(*study);
     if (!html) return html.error();
     const auto file = [&](const char* extension) { return folder / (study->name + extension); };
-    const std::string markdown = to_markdown(*study), json = to_json(*study).dump(1) + "\n";
+    const std::string markdown = to_markdown(*study), json = json_text(to_json(*study), 1) + "\n";
     const FileContent files[] = {{file(".html"), *html}, {file(".json"), json}, {file(".md"), markdown}};
     if (auto status = write_into_folder(folder, files); !status) return status;
-    fmt::print("{}\n{}\n", markdown, file(".html").string());
+    print_text(markdown + "\n");
+    print_line(file(".html").string());
     return Done{};
 }
 
@@ -73,7 +73,7 @@ void add_encoder_options(CLI::App& command, StudyArguments& a) {
 
 void add_bake_options(CLI::App& command, StudyArguments& a) {
     add_scene_options(command, a.scene);
-    command.add_option("--basis", a.bake.bases, "Only these bases (default: all listed)")
+    command.add_option("--basis", a.bake.bases, "Bases to measure (default: all listed)")
         ->transform(CLI::Validator(replace_lobe_file, ""));
     command.add_option("--texels", a.bake.texels, "Number of lightmap texels, spread evenly")
         ->check(CLI::Range(std::size_t{1}, std::size_t{100'000}))

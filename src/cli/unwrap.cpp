@@ -44,7 +44,7 @@ Result<std::filesystem::path> script_folder() {
         fmt::format("unwrap.mjs is not found in {}; set LOBELIA_TOOLS to its folder", folders.front().string())};
 }
 
-/// Says what is missing before anything is read.
+/// Checks that the tools are installed, before anything is read.
 Status check_tools(const std::filesystem::path& folder, const std::atomic<bool>& stop) {
     const auto node = run_program({"node", "--version"}, std::chrono::seconds(20), stop);
     if (!node || node->code != 0)
@@ -64,9 +64,9 @@ Status check_tools(const std::filesystem::path& folder, const std::atomic<bool>&
 Status check_options(const UnwrapArguments& options) {
     if (!options.out.ends_with(".glb")) return Error{options.out + ": the output's name must end in .glb"};
     if (options.layout == "object" && !options.texels_per_metre)
-        return Error{"--layout object needs --texels-per-metre: it decides how large each object's own square is"};
+        return Error{"--layout object requires --texels-per-metre, which sets the size of each object's square"};
     if (options.layout == "object" && options.size)
-        return Error{"--layout object takes no --size: each object has its own"};
+        return Error{"--layout object cannot be combined with --size: each object has its own"};
     return Done{};
 }
 
@@ -81,11 +81,11 @@ Status check_result(const std::filesystem::path& file, const UnwrapArguments& op
     const std::size_t objects = loaded->scene.objects.size();
     for (std::size_t i = 0; i < objects; ++i)
         if (world.has_lightmap_uv[i] == 0)
-            return Error{fmt::format("object \"{}\" got no lightmap UVs", loaded->scene.objects[i].name)};
+            return Error{fmt::format("object \"{}\" has no lightmap UVs", loaded->scene.objects[i].name)};
     const bool shared = options.layout == "shared";
     for (std::size_t i = 0; i < objects; i = shared ? objects : i + 1) {
         const auto check = check_lightmap(world, i, shared ? objects : i + 1, shared ? 2048 : 256);
-        if (check.outside > 0) return Error{fmt::format("{} vertices got lightmap UVs outside [0, 1]", check.outside)};
+        if (check.outside > 0) return Error{fmt::format("{} vertices have lightmap UVs outside [0, 1]", check.outside)};
         // A curved chart may fold over by a sliver where it is flattened.
         if (check.overlapping > check.covered / 1000)
             return Error{fmt::format("charts overlap, first on object \"{}\"",
@@ -119,7 +119,7 @@ Result<std::string> run_script(const UnwrapArguments& options, const ScriptFiles
     arguments["texelsPerMetre"] =
         options.texels_per_metre ? nlohmann::json(*options.texels_per_metre) : nlohmann::json();
     auto finished =
-        run_program({"node", files.script.string(), files.in.string(), files.out.string(), arguments.dump()},
+        run_program({"node", files.script.string(), files.in.string(), files.out.string(), json_text(arguments)},
                     std::chrono::seconds(options.timeout), stop);
     if (!finished) return Error{options.in + ": " + finished.error().message};
     if (finished->code != 0) {
@@ -165,11 +165,11 @@ Status unwrap(const UnwrapArguments& options, const std::atomic<bool>& stop) {
     if (!description) return description.error();
     if (const auto status = check_result(file, options, stop); !status)
         return Error{options.in + ": " + status.error().message};
-    if (stop) return Error{"stopped"};
+    if (stop) return Error{"stopped", Error::Kind::stopped};
     const auto bytes = read_file(file, k_most_bytes);
     if (!bytes) return bytes.error();
     if (const auto status = write_file_atomically(options.out, *bytes); !status) return status;
-    fmt::print("{}\n", *description);
+    print_line(*description);
     return Done{};
 }
 
@@ -184,20 +184,21 @@ Status unwrap_verb(const UnwrapArguments& options) {
 
 Verb add_unwrap(CLI::App& app) {
     auto options = std::make_shared<UnwrapArguments>();
-    CLI::App* command = app.add_subcommand("unwrap", "Give a glTF scene lightmap UVs (needs Node.js)");
+    CLI::App* command = app.add_subcommand("unwrap", "Add lightmap UVs to a glTF scene (requires Node.js)");
     command->add_option("SCENE", options->in, "A .glb or .gltf file")->required();
-    command->add_option("-o,--out", options->out, "The file to write, .glb")->required();
+    command->add_option("-o,--out", options->out, "Output file, .glb")->required();
     command
         ->add_option("--layout", options->layout,
-                     "shared: all objects in one square; object: each has its own, for bakes on several pages")
+                     "shared: all objects in one UV square; object: each has its own, for bakes on several pages")
         ->check(CLI::IsMember({"shared", "object"}))
         ->capture_default_str();
     command
         ->add_option("--texels-per-metre", options->texels_per_metre,
-                     "Density (default: as dense as fits a page of --size)")
+                     "Texels per metre (default: the maximum that fits a page of --size)")
         ->check(number_in(1e-3, 1e5));
     command
-        ->add_option("--size", options->size, "Texels of a side of the page (default: 1024, or what the density needs)")
+        ->add_option("--size", options->size,
+                     "Side of the page in texels (default: 1024, or as large as --texels-per-metre requires)")
         ->check(CLI::Range(16u, 16384u));
     command->add_option("--padding", options->padding, "Texels between charts")
         ->check(CLI::Range(0u, 64u))
@@ -205,7 +206,7 @@ Verb add_unwrap(CLI::App& app) {
     command->add_option("--uv-set", options->uv_set, "Write TEXCOORD_<this>")
         ->check(CLI::Range(std::size_t{0}, std::size_t{7}))
         ->capture_default_str();
-    command->add_option("--timeout", options->timeout, "Give up after so many seconds")
+    command->add_option("--timeout", options->timeout, "Time limit in seconds")
         ->check(CLI::Range(1u, 1000000u))
         ->capture_default_str();
     return {command, [options] { return unwrap_verb(*options); }};

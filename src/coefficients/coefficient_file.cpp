@@ -20,7 +20,7 @@ std::string to_text(const CoefficientFile& file) {
     const json content = {{"lobelia_coefficients", k_coefficient_format},
                           {"codec", file.codec.str()},
                           {"coefficients", std::move(coefficients)}};
-    return content.dump(1, ' ', false, json::error_handler_t::replace) + "\n";
+    return json_text(content, 1) + "\n";
 }
 
 Result<CoefficientFile> coefficients_from_text(std::string_view text, const std::string& name) {

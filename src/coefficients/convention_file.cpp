@@ -45,7 +45,7 @@ class Reader {
         if (!file.is_object()) return Error{name_ + ": not a JSON object"};
         if (const json& named = member(file, "convention");
             named.is_string() && named.get<std::string>() != convention_.name)
-            return Error{name_ + ": is of convention " + named.dump() + ", not \"" + std::string(convention_.name) +
+            return Error{name_ + ": is of convention " + json_text(named) + ", not \"" + std::string(convention_.name) +
                          "\""};
         std::vector<Rgb> c;
         switch (convention_.form) {

@@ -9,11 +9,12 @@
 #include "coefficients/coefficient_file.h"
 #include "coefficients/convention_file.h"
 #include "core/math/harmonics.h"
+#include "io/json.h"
 
 namespace lobelia {
 namespace {
 
-/// The codec that a written file of `count` harmonics names: the one asked for, or the first of the list.
+/// Returns the codec of a written file of `count` harmonics: the requested one, or the first of the list.
 Result<CodecName> codec_for(const std::string& name, std::size_t count) {
     const auto matches = [&](const Basis& basis) {
         const auto degree = basis.harmonics_degree();
@@ -86,7 +87,7 @@ Result<Converted> convert(std::string_view text, const std::string& name, const 
             fmt::format("{}: {} has no degrees above {}; they are left out", name, convention.name, convention.degree));
     const auto theirs = exported(convention, c);
     if (auto status = check_finite(theirs, name); !status) return status.error();
-    result.text = to_json(convention, theirs).dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+    result.text = json_text(to_json(convention, theirs), 1) + "\n";
     return result;
 }
 

@@ -37,7 +37,7 @@ class StopFlag {
 };
 
 /// Returns the error of work that was stopped.
-[[nodiscard]] inline Error stopped_error() { return Error{"stopped"}; }
+[[nodiscard]] inline Error stopped_error() { return Error{"stopped", Error::Kind::stopped}; }
 
 /// Returns `work()`, a Result or Status; an error if it was stopped.
 template <class Work>

@@ -173,7 +173,7 @@ Result<Picture> decode_jpeg(std::span<const std::byte> bytes, std::string_view n
     if (!size) return size.error();
 
     // Decode.
-    std::vector<Rgba8> texels(static_cast<std::size_t>(width * height));
+    auto texels = filled<Rgba8>(static_cast<std::size_t>(width * height), options);
     if (!reader.escape.run([&] { read_rows(reader, texels.data()); })) return damaged();
     if (reader.codec.out_color_space == JCS_CMYK) convert_inks(texels, reader.codec.saw_Adobe_marker != FALSE);
     return Picture{static_cast<std::size_t>(width), static_cast<std::size_t>(height), std::move(texels)};

@@ -51,7 +51,7 @@ Result<Picture> decode_picture(std::span<const std::byte> bytes, std::string_vie
     const auto format = picture_format(bytes);
     if (bytes.empty()) return Error{fmt::format("{}: empty", name)};
     if (!format && !unread_format(bytes).empty())
-        return Error{fmt::format("{}: {}, which is not read; PNG, JPEG and WebP are", name, unread_format(bytes))};
+        return Error{fmt::format("{}: {} is not supported; use PNG, JPEG or WebP", name, unread_format(bytes))};
     if (!format) return Error{fmt::format("{}: neither PNG nor JPEG nor WebP", name)};
     switch (*format) {
         case PictureFormat::png:

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <optional>
 #include <span>
 #include <string>
@@ -39,6 +40,8 @@ struct PictureOptions {
     /// 16 bits a sample only if the file has them (PNG) and this is `stored`; else their upper 8.
     enum class Depth { eight, stored };
     Depth depth = Depth::eight;
+    /// Every byte of the texels before decoding. No picture depends on it, for the decoders write all; tests compare.
+    std::uint8_t fill = 0;
 };
 
 /// Decodes PNG, JPEG or WebP; the content decides which. Grey becomes R = G = B, palettes their colours, missing alpha
@@ -54,6 +57,14 @@ struct PictureOptions {
                                           const PictureOptions& options);
 [[nodiscard]] Result<Picture> decode_webp(std::span<const std::byte> bytes, std::string_view name,
                                           const PictureOptions& options);
+
+/// The texels before decoding: every byte is options.fill.
+template <class Texel>
+[[nodiscard]] std::vector<Texel> filled(std::size_t count, const PictureOptions& options) {
+    Texel texel;
+    std::memset(texel.data(), options.fill, sizeof texel);
+    return std::vector<Texel>(count, texel);
+}
 
 /// Returns an error if a picture of this size is empty, exceeds the limits, or cannot be held by `bytes` bytes at
 /// `most_pixels_per_byte`, the best compression of its format.

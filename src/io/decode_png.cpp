@@ -67,7 +67,6 @@ void read_rows(PngReader& reader, bool sixteen_bits, png_bytepp rows, std::size_
 
 template <class Texel>
 bool read_texels(PngReader& reader, std::size_t width, std::size_t height, std::vector<Texel>& texels) {
-    texels.resize(width * height);
     std::vector<png_bytep> rows(height);
     for (std::size_t y = 0; y < height; ++y) rows[y] = reinterpret_cast<png_bytep>(texels.data() + y * width);
     return reader.escape.run(
@@ -94,7 +93,10 @@ Result<Picture> decode_png(std::span<const std::byte> bytes, std::string_view na
     Picture picture{static_cast<std::size_t>(width), static_cast<std::size_t>(height), {}};
     const bool sixteen_bits =
         options.depth == PictureOptions::Depth::stored && png_get_bit_depth(reader.png, reader.info) == 16;
-    if (sixteen_bits) picture.texels = std::vector<Rgba16>();
+    if (sixteen_bits)
+        picture.texels = filled<Rgba16>(picture.width * picture.height, options);
+    else
+        picture.texels = filled<Rgba8>(picture.width * picture.height, options);
     const bool done = std::visit(
         [&](auto& texels) { return read_texels(reader, picture.width, picture.height, texels); }, picture.texels);
     if (!done) return damaged();

@@ -35,7 +35,8 @@ Result<Picture> decode_webp(std::span<const std::byte> bytes, std::string_view n
     if (!WebPInitDecoderConfig(&config)) return Error{fmt::format("{}: libwebp has another version", name)};
     if (const VP8StatusCode status = WebPGetFeatures(data, bytes.size(), &config.input); status != VP8_STATUS_OK)
         return damaged(status);
-    if (config.input.has_animation) return Error{fmt::format("{}: an animated WebP; only still ones are read", name)};
+    if (config.input.has_animation)
+        return Error{fmt::format("{}: an animated WebP; only still pictures are supported", name)};
 
     // Check the size. A picture of one colour takes the same few bytes at any size.
     constexpr std::size_t k_any = std::numeric_limits<std::size_t>::max();
@@ -44,7 +45,7 @@ Result<Picture> decode_webp(std::span<const std::byte> bytes, std::string_view n
     if (!size) return size.error();
 
     // Decode into the texels.
-    std::vector<Rgba8> texels(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+    auto texels = filled<Rgba8>(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), options);
     config.output.colorspace = MODE_RGBA;
     config.output.is_external_memory = 1;
     config.output.u.RGBA.rgba = texels.data()->data();

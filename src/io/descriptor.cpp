@@ -1,6 +1,7 @@
 // POSIX file descriptors for the readers and writers of files.
 #include "io/descriptor.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -25,6 +26,14 @@ bool write_all(const Descriptor& descriptor, std::span<const std::byte> bytes) {
         bytes = bytes.subspan(static_cast<std::size_t>(written));
     }
     return true;
+}
+
+Status sync_folder(const std::filesystem::path& folder) {
+    const Descriptor descriptor(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+    if (!descriptor.is_open()) return write_failure(folder, errno);
+    // Some file systems cannot do this for folders, and say so.
+    if (::fsync(descriptor.get()) != 0 && errno != EINVAL) return write_failure(folder, errno);
+    return Done{};
 }
 
 Error write_failure(const std::filesystem::path& path, int code) {

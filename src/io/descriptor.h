@@ -31,6 +31,9 @@ class Descriptor {
 /// Writes all bytes; false with errno if that fails.
 [[nodiscard]] bool write_all(const Descriptor& descriptor, std::span<const std::byte> bytes);
 
+/// Flushes a folder's entries to the disk: new files, renamings, removals.
+[[nodiscard]] Status sync_folder(const std::filesystem::path& folder);
+
 /// The error for a `path` that cannot be written, with the system's reason.
 [[nodiscard]] Error write_failure(const std::filesystem::path& path, int code);
 

@@ -25,7 +25,7 @@ struct ExrWindow {
 [[nodiscard]] ExrWindow data_window(const Imf::Header& header);
 /// The image; pixels of it that are not stored are black.
 [[nodiscard]] ExrWindow display_window(const Imf::Header& header);
-/// What the two have in common; empty (a side of 0 or less) if they do not overlap.
+/// Returns the intersection; empty (a side of 0 or less) if they do not overlap.
 [[nodiscard]] ExrWindow common_window(const ExrWindow& a, const ExrWindow& b);
 /// Warns of windows that differ; no text if they do not.
 [[nodiscard]] std::vector<std::string> warnings_about_windows(const Imf::Header& header);

@@ -12,12 +12,12 @@ namespace lobelia {
 namespace fs = std::filesystem;
 
 Status check_folder(const fs::path& folder) {
-    // Ask the folder, or the nearest one above it that exists.
+    // Check the folder, or the nearest existing one above it.
     std::error_code code;
     fs::path existing = fs::absolute(folder, code);
     while (!fs::exists(existing, code) && existing.has_relative_path()) existing = existing.parent_path();
     if (!fs::is_directory(existing, code))
-        return Error{folder.string() + ": cannot be made a folder: " + existing.string() + " is not one"};
+        return Error{folder.string() + ": cannot create the folder: " + existing.string() + " is not a folder"};
     if (access(existing.c_str(), W_OK | X_OK) != 0)
         return Error{folder.string() + ": cannot be written to: " + std::generic_category().message(errno)};
     return Done{};
@@ -43,7 +43,7 @@ Result<MadeFolder> MadeFolder::make(const fs::path& folder) {
     MadeFolder made(whole, topmost);
     fs::create_directories(whole, code);
     if (!code && !fs::is_directory(whole, code)) code = std::make_error_code(std::errc::not_a_directory);
-    if (code) return Error{fmt::format("{}: cannot be made a folder: {}", folder.string(), code.message())};
+    if (code) return Error{fmt::format("{}: cannot create the folder: {}", folder.string(), code.message())};
     return made;
 }
 

@@ -187,7 +187,7 @@ void JsonPlace::expect(const json& expected) const {
         const auto entries = list_of(expected.size());
         for (std::size_t i = 0; i < entries.size(); ++i) entries[i].expect(expected[i]);
     } else if (*value_ != expected) {
-        refuse("not " + expected.dump());
+        refuse("not " + json_text(expected));
     }
 }
 

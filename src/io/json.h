@@ -24,7 +24,7 @@
 
 namespace lobelia {
 
-/// What is refused before it costs memory or stack.
+/// Limits that are checked before memory or stack is used.
 struct JsonLimits {
     std::size_t most_depth = 64;                      ///< nested arrays and objects
     std::size_t most_values = std::size_t{1} << 27;   ///< numbers, strings, arrays, objects and so on
@@ -97,7 +97,7 @@ class JsonPlace {
     [[nodiscard]] double number_in(double least, double most) const;
     [[nodiscard]] float single() const;
     [[nodiscard]] Vec3 vector() const;
-    /// As many numbers as `target` has elements.
+    /// Reads as many numbers as `target` has elements.
     void numbers(std::span<double> target) const;
     /// Refuses a value that differs from `expected`; objects may have further members.
     void expect(const nlohmann::json& expected) const;
@@ -126,6 +126,13 @@ template <class Read>
     } catch (const JsonRefusal& refusal) {
         return Error{refusal.what()};
     }
+}
+
+/// The text of a JSON value, on one line unless `indent` is 0 or more. Bytes of its strings that are not UTF-8 become
+/// U+FFFD. Requires <nlohmann/json.hpp>.
+template <class Json>
+[[nodiscard]] std::string json_text(const Json& value, int indent = -1) {
+    return value.dump(indent, ' ', false, Json::error_handler_t::replace);
 }
 
 /// A float as the double with the shortest decimal text that reads back as the float.

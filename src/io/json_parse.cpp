@@ -1,4 +1,4 @@
-// Parses JSON text, and says where and why it is broken.
+// Parses JSON text, and reports the place and cause of errors.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -57,7 +57,7 @@ class Builder {
     bool key(std::string& name) {
         const auto [entry, is_new] = stack_.back()->get_ref<json::object_t&>().emplace(name, nullptr);
         member_ = &entry->second;
-        return is_new || stop(fmt::format("the key \"{:.60}\" stands twice in one object", name));
+        return is_new || stop(fmt::format("duplicate key \"{:.60}\" in an object", name));
     }
     bool parse_error(std::size_t byte, const std::string& /*token*/, const json::exception& error) {
         byte_ = byte;
@@ -67,7 +67,7 @@ class Builder {
 
     [[nodiscard]] json take() { return std::move(root_); }
     [[nodiscard]] const std::string& problem() const { return problem_; }
-    /// Where the parser met the problem, counted from 1; nothing where it was a handler's.
+    /// Returns the byte at which the parser failed, counted from 1; nothing if a handler failed.
     [[nodiscard]] std::optional<std::size_t> byte() const { return byte_; }
 
   private:
@@ -117,7 +117,7 @@ class Builder {
 Result<nlohmann::json> parse_json(std::string_view text, const std::string& file, const JsonLimits& limits) {
     Builder builder(limits);
     if (json::sax_parse(text, &builder)) return builder.take();
-    if (!builder.byte()) return Error{fmt::format("{}: broken JSON: {}", file, builder.problem())};
+    if (!builder.byte()) return Error{fmt::format("{}: invalid JSON: {}", file, builder.problem())};
 
     // Find the line and column of the byte.
     const std::size_t byte = std::min<std::size_t>(*builder.byte(), text.size());
@@ -126,7 +126,7 @@ Result<nlohmann::json> parse_json(std::string_view text, const std::string& file
     const std::size_t line_end = before.rfind('\n');
     const std::size_t column = before.size() - (line_end == std::string_view::npos ? 0 : line_end + 1) + 1;
     return Error{fmt::format(
-        "{}: broken JSON at byte {} (line {}, column {}): {}", file, *builder.byte(), line, column,
+        "{}: invalid JSON at byte {} (line {}, column {}): {}", file, *builder.byte(), line, column,
         is_nan_or_infinity(text, before.size()) ? "NaN and Infinity are not valid JSON" : builder.problem())};
 }
 

@@ -78,12 +78,8 @@ Result<ExrPlanes> read(io::ExrInput& in, std::string_view name, const ReadChanne
 Result<ExrPlanes> read_exr_channels(const std::filesystem::path& path, const ReadChannelsOptions& options) {
     auto file = InputFile::open(path);
     if (!file) return file.error();
-    return read_exr_channels(*std::move(file), options);
-}
-
-Result<ExrPlanes> read_exr_channels(InputFile file, const ReadChannelsOptions& options) {
-    const std::string name = file.name();
-    io::FileInput in(std::move(file));
+    const std::string name = file->name();
+    io::FileInput in(*std::move(file));
     return read(in, name, options);
 }
 

@@ -8,7 +8,6 @@
 #include <string_view>
 #include <vector>
 
-#include "io/read_file.h"
 #include "lobelia/result.h"
 
 namespace lobelia {
@@ -35,7 +34,6 @@ struct ExrPlanes {
 /// place.
 [[nodiscard]] Result<ExrPlanes> read_exr_channels(const std::filesystem::path& path,
                                                   const ReadChannelsOptions& options = {});
-[[nodiscard]] Result<ExrPlanes> read_exr_channels(InputFile file, const ReadChannelsOptions& options = {});
 [[nodiscard]] Result<ExrPlanes> read_exr_channels(std::span<const std::byte> bytes, std::string_view name,
                                                   const ReadChannelsOptions& options = {});
 

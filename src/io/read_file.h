@@ -36,6 +36,7 @@ class InputFile {
         std::uint64_t most_bytes = std::numeric_limits<std::uint64_t>::max());
 
     [[nodiscard]] const std::string& name() const { return name_; }
+    [[nodiscard]] const io::Descriptor& descriptor() const { return descriptor_; }
     /// Size in bytes when the file was opened.
     [[nodiscard]] std::uint64_t size() const { return size_; }
     /// Fills `target` with the bytes from `position` on; an error if the file ends before.

@@ -61,7 +61,7 @@ Problem decode_flat_or_old_rle(Cursor& in, std::span<StoredTexel> line) {
             shift = 0;
             continue;
         }
-        if (i == 0) return "a run stands before the first texel";
+        if (i == 0) return "a run before the first texel";
         if (shift > 24) return "a run is longer than any scanline";
         const std::size_t count = std::size_t{texel[3]} << shift;
         if (count > line.size() - i)

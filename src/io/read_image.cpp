@@ -30,34 +30,30 @@ Error unknown_format(std::string_view name, std::span<const std::byte> begin) {
     if (begin.empty()) return Error{fmt::format("{}: the file is empty", name)};
     if (const std::string_view format = io::unread_format(begin); !format.empty())
         return Error{
-            fmt::format("{}: {}, which is not read; Radiance .hdr, OpenEXR, PNG, JPEG and WebP are", name, format)};
+            fmt::format("{}: {} is not supported; use Radiance .hdr, OpenEXR, PNG, JPEG or WebP", name, format)};
     return Error{fmt::format("{}: neither a Radiance picture, nor OpenEXR, nor PNG, JPEG or WebP", name)};
 }
 
 }  // namespace
 
 Result<LoadedImage> read_environment(const std::filesystem::path& path, const ReadOptions& options) {
+    // Open the file and recognise its format.
     auto file = InputFile::open(path);
     if (!file) return file.error();
-    return read_environment(*std::move(file), options);
-}
-
-Result<LoadedImage> read_environment(InputFile file, const ReadOptions& options) {
-    // Recognise its format.
-    std::vector<std::byte> begin(static_cast<std::size_t>(std::min<std::uint64_t>(k_magic_bytes, file.size())));
-    if (const Status status = file.read(0, begin); !status) return status.error();
+    std::vector<std::byte> begin(static_cast<std::size_t>(std::min<std::uint64_t>(k_magic_bytes, file->size())));
+    if (const Status status = file->read(0, begin); !status) return status.error();
     const std::optional<Format> format = format_of(begin);
-    if (!format) return unknown_format(file.name(), begin);
+    if (!format) return unknown_format(file->name(), begin);
 
     // Read OpenEXR in place, all else whole.
-    if (*format == Format::openexr) return read_exr(std::move(file), options);
+    if (*format == Format::openexr) return read_exr(*std::move(file), options);
     // No format takes more than 16 bytes for a pixel; the rest is for headers.
     constexpr std::size_t k_most_pixels = std::size_t{io::k_most_side} * io::k_most_side;
     const std::size_t most_bytes = 16 * std::min(options.most_pixels, k_most_pixels) + (std::size_t{64} << 20);
-    if (file.size() > most_bytes) return Error{fmt::format("{}: larger than {} bytes", file.name(), most_bytes)};
-    const auto bytes = read_file(file);
+    if (file->size() > most_bytes) return Error{fmt::format("{}: larger than {} bytes", file->name(), most_bytes)};
+    const auto bytes = read_file(*file);
     if (!bytes) return bytes.error();
-    return read_environment(*bytes, file.name(), options);
+    return read_environment(*bytes, file->name(), options);
 }
 
 Result<LoadedImage> read_environment(std::span<const std::byte> bytes, std::string_view name,

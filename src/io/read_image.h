@@ -41,9 +41,6 @@ struct LoadedImage {
 /// memory while they are decoded.
 [[nodiscard]] Result<LoadedImage> read_environment(const std::filesystem::path& path, const ReadOptions& options = {});
 
-/// The same for a file that is open.
-[[nodiscard]] Result<LoadedImage> read_environment(InputFile file, const ReadOptions& options = {});
-
 /// Reads a file of any of the formats that is in memory already; messages call it `name`.
 [[nodiscard]] Result<LoadedImage> read_environment(std::span<const std::byte> bytes, std::string_view name,
                                                    const ReadOptions& options = {});

@@ -39,8 +39,8 @@ Result<PictureRgba8> read_picture_rgba8(std::span<const std::byte> bytes, std::s
 Result<LoadedImage> read_ldr(std::span<const std::byte> bytes, std::string_view name, const ReadOptions& options) {
     if (!options.ldr)
         return Error{
-            fmt::format("{}: a picture without high dynamic range, in which suns and lamps are cut off at "
-                        "white; pass --ldr to use it all the same",
+            fmt::format("{}: a low dynamic range picture, in which suns and lamps are clipped at white; pass --ldr to "
+                        "use it anyway",
                         name)};
     const auto picture = io::decode_picture(
         bytes, name, {.most_pixels = options.most_pixels, .depth = io::PictureOptions::Depth::stored});

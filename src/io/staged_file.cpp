@@ -3,11 +3,13 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <optional>
+#include <regex>
 #include <system_error>
 
 namespace lobelia {
@@ -78,17 +80,18 @@ Result<StagedFile> StagedFile::create(const fs::path& path, StopFlag stop) {
 
     // Open a file without a name if the system can do that there, else one with a name of its own.
     const fs::path folder = target->has_parent_path() ? target->parent_path() : fs::path(".");
-    int opened = ::open(folder.c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, 0666);
+    int opened = ::open(folder.c_str(), O_RDWR | O_TMPFILE | O_CLOEXEC, 0666);
     std::optional<fs::path> temporary = fs::path();
     if (opened < 0 || ::access("/proc/self/fd", X_OK) != 0) {
         if (opened >= 0) ::close(opened);
         temporary = create_named_beside(*target, [&](const fs::path& candidate) {
-            opened = ::open(candidate.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+            opened = ::open(candidate.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
             return opened >= 0;
         });
         if (!temporary) return io::write_failure(path, errno);
     }
     StagedFile staged(*target, io::Descriptor(opened), *temporary, stop);
+    (void)::flock(opened, LOCK_EX | LOCK_NB);
     if (replaces && ::fchmod(opened, old.st_mode & 0777) != 0) return io::write_failure(path, errno);
     return staged;
 }
@@ -111,24 +114,48 @@ Status StagedFile::flush() {
     return Done{};
 }
 
+Result<FileSum> StagedFile::sum() const { return sum_of(descriptor_, target_.string()); }
+
+Status StagedFile::name() {
+    if (!temporary_.empty()) return Done{};
+    const std::string self = fmt::format("/proc/self/fd/{}", descriptor_.get());
+    const auto named = create_named_beside(target_, [&](const fs::path& name) {
+        return ::linkat(AT_FDCWD, self.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0;
+    });
+    if (!named) return io::write_failure(target_, errno);
+    temporary_ = *named;
+    return Done{};
+}
+
 Status StagedFile::close() {
-    if (temporary_.empty()) {
-        const std::string self = fmt::format("/proc/self/fd/{}", descriptor_.get());
-        const auto named = create_named_beside(target_, [&](const fs::path& name) {
-            return ::linkat(AT_FDCWD, self.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0;
-        });
-        if (!named) return io::write_failure(target_, errno);
-        temporary_ = *named;
-    }
+    if (Status status = name(); !status) return status;
     if (!descriptor_.close()) return io::write_failure(target_, errno);
     return Done{};
 }
 
 Status StagedFile::commit() {
-    if (Status status = close(); !status) return status;
+    // Close it last: it is locked while it has a temporary name. After `flush`, nothing is left that closing can lose.
+    if (Status status = name(); !status) return status;
     if (::rename(temporary_.c_str(), target_.c_str()) != 0) return io::write_failure(target_, errno);
     temporary_.clear();
-    return Done{};
+    return descriptor_.close() ? Status(Done{}) : io::write_failure(target_, errno);
+}
+
+bool is_temporary_name(std::string_view name) {
+    // What create_named_beside makes: the process, the hash of the final name, the attempt.
+    static const std::regex pattern(R"(\.lobelia-[0-9]+-[0-9a-f]+-[0-9]+\.tmp)");
+    return std::regex_match(name.begin(), name.end(), pattern);
+}
+
+void remove_abandoned_files(const fs::path& folder) {
+    std::error_code code;
+    for (fs::directory_iterator entry(folder, code), end; !code && entry != end; entry.increment(code)) {
+        if (!is_temporary_name(entry->path().filename().string())) continue;
+        const io::Descriptor file(::open(entry->path().c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
+        struct stat status {};
+        if (!file.is_open() || ::fstat(file.get(), &status) != 0 || !S_ISREG(status.st_mode)) continue;
+        if (::flock(file.get(), LOCK_EX | LOCK_NB) == 0) ::unlink(entry->path().c_str());
+    }
 }
 
 }  // namespace lobelia

@@ -168,7 +168,7 @@ Status write_exr(StagedFile& file, std::size_t width, std::size_t height, std::s
     } catch (const std::exception& error) {
         if (out.status()) return Error{fmt::format("the OpenEXR image cannot be encoded: {}", error.what())};
     }
-    // Where the table of chunks could not be written, OpenEXR keeps silent.
+    // OpenEXR does not report failures to write the table of chunks.
     return out.status();
 }
 

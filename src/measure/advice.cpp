@@ -71,7 +71,7 @@ std::size_t balanced(const std::vector<Candidate>& front) {
         front.begin());
 }
 
-/// Chooses and says why, as far as the choice itself goes.
+/// Chooses a candidate and states the reason.
 void recommend(Advice& advice) {
     const AdviceOptions& options = advice.options;
     const std::string small_enough =
@@ -82,11 +82,11 @@ void recommend(Advice& advice) {
         why = "is the smallest within " + small_enough;
     } else if (options.budget) {
         advice.recommended = best_within(advice.front, *options.budget);
-        why = fmt::format("has the least error that {:.4g} bytes can buy, though not within {}", *options.budget,
+        why = fmt::format("has the smallest error in at most {:.4g} bytes; none there is within {}", *options.budget,
                           small_enough);
     } else {
         advice.recommended = balanced(advice.front);
-        why = "has the best balance of bytes and error, where nothing is within " + small_enough;
+        why = "has the smallest product of bytes and error; none is within " + small_enough;
     }
     const Candidate& chosen = advice.front[advice.recommended];
     advice.reason =
@@ -112,8 +112,8 @@ const Candidate* better(const Advice& advice) {
 /// Says what a little less and a little more would give.
 void add_neighbours(Advice& advice) {
     if (const Candidate* next = cheaper(advice))
-        advice.reason += fmt::format("; with less, {} at {:.4g} bytes is off by {:.3g} %", text_of(*next), next->bytes,
-                                     100 * next->error);
+        advice.reason += fmt::format("; with fewer bytes, {} at {:.4g} has an error of {:.3g} %", text_of(*next),
+                                     next->bytes, 100 * next->error);
     if (const Candidate* next = better(advice))
         advice.reason +=
             fmt::format("; for {:.3g} %, {} takes {:.4g} bytes", 100 * next->error, text_of(*next), next->bytes);
@@ -140,7 +140,7 @@ std::string_view to_string(Need need) {
 
 Result<Advice> advise(std::vector<Candidate> candidates, const AdviceOptions& options) {
     std::erase_if(candidates, [](const Candidate& c) { return !std::isfinite(c.error) || !(c.bytes > 0); });
-    if (candidates.empty()) return Error{"there is no codec to choose from"};
+    if (candidates.empty()) return Error{"no codec to choose from"};
     Advice advice{options, front_of(std::move(candidates)), 0, {}};
     // Even the smallest may be too large.
     if (const Candidate& smallest = advice.front.front(); options.budget && smallest.bytes > *options.budget)
@@ -187,7 +187,7 @@ Study to_study(const Advice& advice, const std::string& subject) {
     study.title = fmt::format("Codecs for the {} of {}", to_string(advice.options.need), subject);
     study.summary = advice.reason;
     Study::Table& table = study.tables.emplace_back();
-    table.title = "What nothing beats in error, bytes and time at once";
+    table.title = "Pareto-optimal in error, bytes and time";
     table.note = "Error: RMS over the mean. Bytes for a texel or probe. Recommended: marked by an asterisk.";
     table.columns = {"codec", "storage", "bytes", "error", "ns", ""};
     Study::Plot& plot = study.plots.emplace_back();
@@ -195,7 +195,7 @@ Study to_study(const Advice& advice, const std::string& subject) {
     plot.x_label = "bytes for a texel or probe";
     plot.y_label = "RMS error over the mean";
     plot.x_axis = plot.y_axis = Study::Axis::logarithmic;
-    Study::Series front{"the least error for so many bytes", {}, {}};
+    Study::Series front{"smallest error for this many bytes", {}, {}};
     double least = HUGE_VAL;
     for (std::size_t i = 0; i < advice.front.size(); ++i) {
         const Candidate& c = advice.front[i];

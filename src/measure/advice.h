@@ -11,7 +11,7 @@
 
 namespace lobelia {
 
-/// What the coefficients are evaluated for.
+/// Purpose of the coefficients.
 enum class Need { radiance, irradiance, specular };
 [[nodiscard]] std::string_view to_string(Need need);
 

@@ -68,7 +68,7 @@ std::string kind_of(const Basis& basis) {
 }
 
 std::string overview(const std::vector<BasisPtr>& bases) {
-    std::string text = "| basis | what it is | over the | kind | floats | bytes |\n|---|---|---|---|---:|---:|\n";
+    std::string text = "| basis | description | domain | kind | floats | bytes |\n|---|---|---|---|---:|---:|\n";
     for (const BasisPtr& basis : bases) {
         const std::size_t floats = 3 * basis->size();
         text += "| `" + basis->name() + "` | " + basis->description() + " | " +

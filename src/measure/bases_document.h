@@ -1,4 +1,4 @@
-// docs/bases.md: every listed basis, written from what the bases say of themselves.
+// docs/bases.md: every listed basis, from the cards and traits of the bases.
 #pragma once
 
 #include <string>

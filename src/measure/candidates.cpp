@@ -28,7 +28,7 @@ double error_of(const Method& method, Need need) {
     return need == Need::radiance ? method.radiance.rms : method.irradiance_over_pi.rms;
 }
 
-/// For each basis and evaluator the codec of the best encoder: the others take as many bytes.
+/// Returns the codec of the best encoder for each basis and evaluator: the others take as many bytes.
 std::vector<CodecName> best_codecs(const Comparison& comparison, Domain domain, Need need) {
     std::map<std::pair<std::string, std::string>, const Method*> best;
     for (const Method& m : comparison.methods) {

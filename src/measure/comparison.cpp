@@ -221,7 +221,7 @@ class Run {
         return outputs;
     }
 
-    /// Stores and measures every method's coefficients in every storage that was asked for.
+    /// Stores and measures every method's coefficients in every requested storage.
     void store_all(std::vector<Method>& methods) const {
         if (options_.storages.empty()) return;
         tbb::parallel_for(std::size_t{0}, methods.size(), [&](std::size_t i) {

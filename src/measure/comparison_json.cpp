@@ -9,7 +9,7 @@ namespace {
 using nlohmann::json;
 
 constexpr const char* k_version = LOBELIA_VERSION;
-constexpr int k_report_format = 1;
+constexpr int k_report_format = 2;
 
 json triple(Rgb c) { return {c.r, c.g, c.b}; }
 
@@ -99,8 +99,8 @@ json to_json(const Comparison& comparison, const EnvironmentInfo& environment) {
                      {"sequence", comparison.sequence},
                      {"seed", comparison.seed},
                      {"reference", comparison.reference},
-                     {"judged_width", grid.width},
-                     {"judged_height", grid.height}}},
+                     {"measured_width", grid.width},
+                     {"measured_height", grid.height}}},
                    {"methods", std::move(methods)}};
     if (!comparison.convergence.empty()) {
         json curves = json::array();

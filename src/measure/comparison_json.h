@@ -9,7 +9,7 @@
 
 namespace lobelia {
 
-/// Where the environment came from.
+/// Source of the environment.
 struct EnvironmentInfo {
     std::string name;
     LatLong source;

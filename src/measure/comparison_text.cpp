@@ -74,8 +74,8 @@ std::string stored_text(const Comparison& comparison) {
     });
     const double mean = mean_value(comparison);
     std::string text =
-        fmt::format("\n{:<42} {:>6} {:>9} {:>9} {:>11} {:>11} {:>12}\n", "stored: least error for the bytes", "bytes",
-                    "E error", "L error", "E/pi rms", "L rms", "storage");
+        fmt::format("\n{:<42} {:>6} {:>9} {:>9} {:>11} {:>11} {:>12}\n", "stored: smallest error for the bytes",
+                    "bytes", "E error", "L error", "E/pi rms", "L rms", "storage");
     double least = std::numeric_limits<double>::infinity();
     for (const auto& [method, stored] : ranked) {
         if (!(stored->irradiance_over_pi_rms < least)) continue;

@@ -4,12 +4,13 @@
 #include <cassert>
 #include <nlohmann/json.hpp>
 
+#include "io/json.h"
 #include "report/modules.h"
 
 namespace lobelia {
 
 std::string script_safe(const nlohmann::json& value) {
-    const std::string text = value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    const std::string text = json_text(value);
     std::string safe;
     safe.reserve(text.size());
     // `<` occurs in strings only, where \u003c means the same.

@@ -1,4 +1,4 @@
-// What all reports share: embedded files, templates with marks to fill, and JSON inside script elements.
+// Shared by all reports: embedded files, templates with placeholders, and JSON inside script elements.
 #pragma once
 
 #include <cstddef>

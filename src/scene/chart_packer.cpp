@@ -1,4 +1,4 @@
-// Rectangles into a square, on a grid.
+// Packs rectangles into a square, on a grid.
 #include "scene/chart_packer.h"
 
 #include <algorithm>
@@ -7,17 +7,17 @@
 namespace lobelia {
 namespace {
 
-/// The height that has been built up over each column of the square.
+/// The occupied height of each column of the square.
 class Skyline {
   public:
     explicit Skyline(std::uint32_t side) : heights_(side) {}
 
-    /// The lowest place for a rectangle that small, the leftmost of equals; nothing where it would stick out.
+    /// Returns the lowest place for a rectangle of this size, the leftmost of equals; nothing if it does not fit.
     [[nodiscard]] std::optional<ChartPlace> lowest(ChartSize size) const {
         const auto side = static_cast<std::uint32_t>(heights_.size());
         std::optional<ChartPlace> best;
         for (std::uint32_t x = 0; x + size.width <= side; ++x) {
-            // It can only lie better further left unless a step begins here.
+            // Skip columns without a step: the place to their left is as low.
             if (x > 0 && heights_[x] == heights_[x - 1]) continue;
             const std::uint32_t y = *std::max_element(heights_.begin() + x, heights_.begin() + x + size.width);
             if (y + size.height <= side && (!best || y < best->y)) best = ChartPlace{x, y};
@@ -44,7 +44,7 @@ std::optional<std::vector<ChartPlace>> pack_charts(std::span<const ChartSize> si
         return sizes[a].height != sizes[b].height ? sizes[a].height > sizes[b].height : sizes[a].width > sizes[b].width;
     });
 
-    // Lay each down with its padding around it.
+    // Place each rectangle with its padding.
     Skyline skyline(side);
     std::vector<ChartPlace> places(sizes.size());
     for (const std::size_t i : order) {

@@ -1,9 +1,11 @@
-// Whether a scene is what scene.h promises.
+// Checks a scene against the promises of scene.h.
 #include "scene/check_scene.h"
 
 #include <fmt/format.h>
 
 #include <span>
+
+#include "scene/light/light_kind.h"
 
 namespace lobelia {
 namespace {
@@ -15,7 +17,7 @@ bool finite(const Transform& t) {
     return finite(t.rows[0]) && finite(t.rows[1]) && finite(t.rows[2]) && finite(t.translation);
 }
 bool is_positive(Rgb c) { return finite(c.r) && finite(c.g) && finite(c.b) && c.r >= 0 && c.g >= 0 && c.b >= 0; }
-/// Beyond this limit, that of the texels of environments, sums of several and their squares overflow.
+/// Upper limit of light, as for the texels of environments: above it sums of several and their squares overflow.
 constexpr float k_most_light = 1e15f;
 bool is_light(Rgb c) { return is_positive(c) && c.r <= k_most_light && c.g <= k_most_light && c.b <= k_most_light; }
 bool in_unit(float x) { return x >= 0 && x <= 1; }
@@ -23,13 +25,13 @@ bool in_unit(const std::array<float, 4>& c) { return in_unit(c[0]) && in_unit(c[
 bool is_reflectance(Rgb c) { return in_unit(c.r) && in_unit(c.g) && in_unit(c.b); }
 bool is_unit(Vec3 v) { return finite(v) && std::abs(length(v) - 1) < 1e-3f; }
 
-/// The path of one element, and what is wrong with it.
+/// Makes an error from the path of an element and its fault.
 template <class... T>
 Error wrong(std::string_view what, fmt::format_string<T...> place, T&&... values) {
     return Error{fmt::format("{}: {}", fmt::format(place, std::forward<T>(values)...), what)};
 }
 
-/// An array beside the positions: as many entries, or none where that is allowed; each good.
+/// Checks an array parallel to the positions: as many entries, or none where that is allowed; each valid.
 template <class T, class Good>
 Status check_array(std::span<const T> values, std::size_t count, std::string_view place, Good good) {
     if (values.size() != count) return wrong(fmt::format("{} entries for {}", values.size(), count), "{}", place);
@@ -96,11 +98,11 @@ Status check_material(const Scene& scene, const Material& m, const std::string& 
 Status check_light(const PunctualLight& light, const std::string& place) {
     if (!is_light(light.intensity)) return wrong("negative or above 1e15", "{}.intensity", place);
     if (!finite(light.position)) return wrong("not finite", "{}.position", place);
-    if (light.kind != PunctualLight::Kind::point && !is_unit(light.direction))
+    const LightKind& kind = light_kind(light.kind);
+    if (kind.aim == LightAim::along_direction && !is_unit(light.direction))
         return wrong("not of length 1", "{}.direction", place);
-    if (light.kind == PunctualLight::Kind::spot && !(light.inner_angle >= 0 && light.inner_angle <= light.outer_angle &&
-                                                     light.outer_angle > 0 && light.outer_angle <= 1.5708f))
-        return wrong("0 <= inner_angle <= outer_angle, 0 < outer_angle <= pi / 2 does not hold", "{}", place);
+    const std::string_view problem = kind.problem != nullptr ? kind.problem(light) : "";
+    if (!problem.empty()) return wrong(problem, "{}", place);
     if (!(light.angular_radius >= 0 && light.angular_radius < 1.5708f))
         return wrong("not in [0, pi / 2)", "{}.angular_radius", place);
     if (!finite(light.range) || light.range < 0) return wrong("negative or not finite", "{}.range", place);

@@ -14,7 +14,7 @@ namespace {
 void add_ground(SceneBuilder& builder, const Materials& m) {
     builder.begin_object("ground");
     builder.quad({-16, 0, 15}, {32, 0, 0}, {0, 0, -20}, surface(m.gravel, 0.3f));
-    // A clipped hedge around it hides the horizon.
+    // Hide the horizon by a clipped hedge around the garden.
     builder.begin_object("hedge");
     constexpr float k_front = 14.2f, k_side = 15.2f;
     const auto hedge = [&](Vec3 low, Vec3 high, unsigned which) {
@@ -33,11 +33,11 @@ void add_ground(SceneBuilder& builder, const Materials& m) {
     builder.box({-k_end, 0.3f, k_back}, {k_end, k_floor, k_edge}, faces(k_face_front, m.stone));
     builder.begin_object("floor");
     builder.quad({-k_end, k_floor, k_edge}, {2 * k_end, 0, 0}, {0, 0, k_back - k_edge}, surface(m.tiles));
-    // A texture of four tiles over 2 m.
+    // Repeat the texture of four tiles every 2 m.
     for (Vec2& uv : builder.scene().meshes.back().uv[0]) uv = uv * 0.5f;
 }
 
-/// Back and end walls: plaster above a painted dado within, plain and coarse without.
+/// Adds the back and end walls: plaster above a painted dado inside, plain and coarse outside.
 void add_walls(SceneBuilder& builder, const Materials& m) {
     constexpr float k_dado = k_floor + 1.1f, k_outside = 0.3f;
     constexpr float x = k_end, outer_x = k_end + k_thickness, outer_z = k_back - k_thickness;
@@ -45,10 +45,10 @@ void add_walls(SceneBuilder& builder, const Materials& m) {
         builder.quad(corner, right, {0, k_dado - corner.y, 0}, surface(m.dado));
         builder.quad({corner.x, k_dado, corner.z}, right, {0, top - k_dado, 0}, surface(m.plaster));
     };
-    // End walls: behind the columns, beside one between its slabs, and above that behind the arcade.
+    // Add end walls: behind the columns, beside each column between its slabs, and above it behind the arcade.
     const auto end_wall = [&](float at, float side) {
         const auto part = [&](float low, float high, auto&& add) {
-            // From the left as seen from inside.
+            // Order the ends from left to right as seen from inside.
             const float begin = side < 0 ? high : low;
             add(Vec3{at, 0, begin}, Vec3{0, 0, side < 0 ? low - high : high - low});
         };
@@ -67,7 +67,7 @@ void add_walls(SceneBuilder& builder, const Materials& m) {
     inner_face({-x, k_floor, k_back}, {2 * x, 0, 0}, k_ceiling);
     builder.box({-outer_x, 0, outer_z}, {outer_x, k_ceiling, k_back},
                 faces(k_face_back | k_face_left | k_face_right, m.plaster, k_outside));
-    // A ledge over the dado's edge, and a bench before it.
+    // Add a ledge above the dado's edge, and a bench in front of it.
     builder.box({-x, k_dado - 0.02f, k_back}, {x, k_dado + 0.1f, k_back + 0.06f},
                 faces(k_face_top | k_face_bottom | k_face_front, m.stone));
     builder.begin_object("bench");
@@ -86,7 +86,7 @@ void add_walls(SceneBuilder& builder, const Materials& m) {
                 faces(k_face_right | k_face_front, m.plaster, k_outside));
 }
 
-/// The wall above the columns: stops along x with the height of its lower edge, from left to right.
+/// The wall above the columns: stops along x and the height of its lower edge at each, from left to right.
 struct ArcadeEdge {
     std::vector<float> x, y;
 };
@@ -107,7 +107,7 @@ ArcadeEdge arcade_edge() {
 }
 
 void add_arcade(SceneBuilder& builder, const Materials& m) {
-    // Both faces of the wall, from the arches up to the ceiling; the back one runs from right to left.
+    // Add both faces of the wall, from the arches up to the ceiling; the back one runs from right to left.
     const ArcadeEdge edge = arcade_edge();
     builder.begin_object("arcade");
     PatchOptions face = surface(m.plaster);
@@ -130,7 +130,7 @@ void add_arcade(SceneBuilder& builder, const Materials& m) {
         });
     }
 
-    // The arches from below.
+    // Add the undersides of the arches.
     PatchOptions soffit = surface(m.stone);
     soffit.columns = k_arch_segments;
     soffit.size = {static_cast<float>(k_pi) * k_arch_radius, 2 * k_half_wall};
@@ -149,7 +149,7 @@ void add_arcade(SceneBuilder& builder, const Materials& m) {
 void add_roof(SceneBuilder& builder, const Materials& m) {
     constexpr float x = k_end + k_thickness + 0.15f, front = k_half_wall + 0.2f, back = k_back - k_thickness - 0.15f;
     builder.begin_object("roof");
-    // The ceiling within, and the eaves around the walls.
+    // Add the ceiling inside, and the eaves around the walls.
     constexpr float wall_x = k_end + k_thickness, wall_back = k_back - k_thickness;
     for (const auto& [low, high] :
          {std::pair{Vec3{-k_end, 0, k_back}, Vec3{k_end, 0, -k_half_wall}},
@@ -168,7 +168,7 @@ void add_roof(SceneBuilder& builder, const Materials& m) {
     }
 }
 
-/// A camera at `eye` that looks at `target`.
+/// Returns a camera at `eye` that looks at `target`.
 Camera look(const char* name, Vec3 eye, Vec3 target, float vertical_field_of_view) {
     const Vec3 z = normalize(eye - target), x = normalize(cross({0, 1, 0}, z)), y = cross(z, x);
     Camera camera;

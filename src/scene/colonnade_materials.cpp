@@ -7,7 +7,7 @@
 namespace lobelia::colonnade {
 namespace {
 
-/// Squares of two kinds of stone with slightly different shades and dark joints; linear colours.
+/// Makes a texture of two kinds of stone tiles with slightly different shades and dark joints; linear colours.
 Texture tile_texture() {
     constexpr std::size_t k_tiles = 4, k_texels = 32, k_side = k_tiles * k_texels;
     constexpr std::array<Rgb, 2> k_stones{Rgb{0.62f, 0.53f, 0.42f}, Rgb{0.33f, 0.15f, 0.09f}};

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t k_column_segments = 16;
 
-/// A half ring of a moulding: a bulge between two heights that meets `radius` at both.
+/// Adds the profile of a moulding: a half round between two heights that starts and ends at `radius`.
 void add_bulge(std::vector<ProfilePoint>& profile, float radius, float bulge, float low, float high) {
     constexpr int k_steps = 5;
     for (int i = 0; i <= k_steps; ++i) {
@@ -20,13 +20,13 @@ void add_bulge(std::vector<ProfilePoint>& profile, float radius, float bulge, fl
     }
 }
 
-/// The horizontal face of a slab around a column: between the slab's edge and a circle.
+/// Adds the horizontal face of a slab around a column: between the slab's edge and a circle.
 void add_ring(SceneBuilder& builder, Vec3 centre, float radius, Vec3 normal, std::uint32_t material) {
     PatchOptions options = surface(material);
     options.columns = k_column_segments;
     options.size = {static_cast<float>(k_pi) * (radius + k_slab), k_slab - radius};
     builder.patch(options, [&](float u, float v) {
-        // Around as a lathe turns, inwards on an upper face and outwards on a lower one.
+        // Go around in the direction of the lathe, inwards on an upper face and outwards on a lower one.
         const double angle = u == 1 ? 0 : 2 * k_pi * static_cast<double>(u);
         const auto s = static_cast<float>(std::sin(angle)), c = static_cast<float>(std::cos(angle));
         const bool on_circle = (v == 1) == (normal.y > 0);
@@ -52,12 +52,13 @@ PatchOptions surface(std::uint32_t material, float density) {
     return options;
 }
 
-/// A column with a square plinth, a round base, a shaft that swells a little, and a capital.
+/// Adds a column with a square plinth, a round base, a shaft with entasis, and a capital.
 void add_column(SceneBuilder& builder, const Materials& m, float x, int number) {
     constexpr float k_shaft = 0.36f, k_neck = 2.42f, k_base_radius = 0.27f, k_capital_radius = 0.335f;
     builder.begin_object("column " + std::to_string(number));
     const Vec3 foot{x, k_floor, 0};
-    // The outer columns stand against the end walls, which end before the slabs do.
+    // The outer columns touch the end walls, which end behind the slabs' front edges: leave out the covered part of the
+    // face.
     const unsigned at_wall = number == 1 ? +k_face_left : number == k_bays + 1 ? +k_face_right : 0u;
     const auto slab = [&](float low, float high) {
         const Vec3 lowest = foot + Vec3{-k_slab, low, -k_slab}, highest = foot + Vec3{k_slab, high, k_slab};
@@ -68,7 +69,7 @@ void add_column(SceneBuilder& builder, const Materials& m, float x, int number) 
     add_ring(builder, foot + Vec3{0, k_plinth_top, 0}, k_base_radius, {0, 1, 0}, m.stone);
     slab(k_abacus, k_abacus_top);
     add_ring(builder, foot + Vec3{0, k_abacus, 0}, k_capital_radius, {0, -1, 0}, m.stone);
-    // Its top before and behind the arcade's wall.
+    // Add the capital's top in front of and behind the arcade's wall.
     for (const auto& [near, far] : {std::pair{-k_slab, -k_half_wall}, std::pair{k_half_wall, k_slab}})
         builder.box({x - k_slab, k_floor + k_abacus, near}, {x + k_slab, k_floor + k_abacus_top, far},
                     faces(k_face_top, m.stone));
@@ -101,7 +102,7 @@ void add_curtain(SceneBuilder& builder, const Curtain& curtain) {
     const float centre = -k_half_length + (static_cast<float>(curtain.bay) + 0.5f) * k_bay;
     const float width = curtain.right - curtain.left;
     const auto at = [&](float u, float v) {
-        // Folds deepen downwards, lean with the height, and the whole swings a little inwards.
+        // Deepen the folds downwards, shift them with the height, and curve the cloth a little inwards.
         const float depth = 0.02f + 0.04f * (1 - v);
         const float wave =
             std::sin(2 * std::numbers::pi_v<float> * (curtain.folds * u + 0.12f * std::sin(3 * v)) + curtain.phase);
@@ -138,7 +139,7 @@ void add_rods(SceneBuilder& builder, const Materials& m) {
     }
 }
 
-/// A terracotta pot with a round bush, before a column.
+/// Adds a terracotta pot with a round bush in front of a column.
 void add_pot(SceneBuilder& builder, const Materials& m, Vec3 foot, int number) {
     builder.begin_object("pot " + std::to_string(number));
     const std::array<ProfilePoint, 5> pot{{{0.16f, 0, {0.97f, -0.24f}},
@@ -160,7 +161,7 @@ void add_cypress(SceneBuilder& builder, const Materials& m, Vec3 foot, float hei
     builder.begin_object("cypress " + std::to_string(number));
     std::vector<ProfilePoint> profile;
     for (int i = 0; i <= 8; ++i) {
-        // A spindle, thickest at a quarter of its height.
+        // Make a spindle, thickest at a quarter of its height.
         const double t = i / 8.0;
         const double radius = 0.02 + 0.62 * std::pow(t, 0.45) * std::pow(1 - t, 0.8) * 1.6;
         const double slope = 0.62 * 1.6 * (t <= 0 ? 1 : radius * (0.45 / (t + 0.02) - 0.8 / (1.02 - t)));

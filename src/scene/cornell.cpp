@@ -1,4 +1,5 @@
-// The Cornell box. Goral et al. 1984; sizes and places after the Cornell University Program of Computer Graphics' data.
+// The Cornell box. Goral et al. 1984; sizes and positions after the data of the Cornell University Program of Computer
+// Graphics.
 #include "scene/embedded.h"
 #include "scene/scene_builder.h"
 
@@ -15,7 +16,7 @@ Material diffuse(const char* name, Rgb color) {
     return material;
 }
 
-/// A block on the floor, turned by `angle` [radians], its bottom left away.
+/// Adds a block on the floor, rotated by `angle` [radians], without its bottom.
 void add_block(SceneBuilder& builder, Vec3 base_centre, Vec3 size, double angle, std::uint32_t material) {
     BoxOptions options;
     options.faces = k_face_sides | k_face_top;
@@ -24,7 +25,7 @@ void add_block(SceneBuilder& builder, Vec3 base_centre, Vec3 size, double angle,
     builder.box({-0.5f * size.x, 0, -0.5f * size.z}, {0.5f * size.x, size.y, 0.5f * size.z}, options);
 }
 
-/// Each wall is an object that faces inwards.
+/// Adds the walls, each an object that faces inwards.
 void add_walls(SceneBuilder& builder, const CornellOptions& options) {
     const auto white = builder.material(diffuse("white", {0.725f, 0.71f, 0.68f}));
     const auto red = builder.material(diffuse("red", {0.63f, 0.065f, 0.05f}));
@@ -66,7 +67,7 @@ Scene cornell_scene(const CornellOptions& options) {
     add_lamp(builder, options);
     Scene scene = builder.finish({.grid = 256, .padding = 4});
 
-    // From before the open front, with the original's field of view; or from just within the front wall.
+    // Place the camera in front of the open side, with the original's field of view; or just inside the front wall.
     Camera camera;
     camera.name = "camera";
     camera.world_from_camera.translation = {0, 0.5f * k_height, k_half_depth + (options.closed ? -0.1f : 8.0f)};

@@ -1,4 +1,4 @@
-// The list of scenes that the program carries.
+// The list of embedded scenes.
 #include "scene/embedded.h"
 
 #include <fmt/format.h>
@@ -32,7 +32,7 @@ std::span<const std::string_view> embedded_scene_names() { return k_names; }
 Result<Scene> embedded_scene(std::string_view name) {
     for (const Entry& entry : k_scenes)
         if (entry.name == name) return entry.make();
-    // Too large to be in a list that tests go through.
+    // The terrain is too large for the list, which tests iterate over.
     if (name == "terrain") return terrain_scene();
     return Error{fmt::format("{}: no such embedded scene; there are {}", name, fmt::join(k_names, ", "))};
 }

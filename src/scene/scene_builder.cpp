@@ -66,7 +66,7 @@ void SceneBuilder::quad(Vec3 corner, Vec3 right, Vec3 up, const PatchOptions& op
 }
 
 void SceneBuilder::box(Vec3 lowest, Vec3 highest, const BoxOptions& options) {
-    // Each face by its lower left corner as seen from outside.
+    // Add each face by its lower left corner as seen from outside.
     const Vec3 d = highest - lowest, x{d.x, 0, 0}, y{0, d.y, 0}, z{0, 0, d.z};
     struct Face {
         unsigned bit;
@@ -90,7 +90,7 @@ void SceneBuilder::box(Vec3 lowest, Vec3 highest, const BoxOptions& options) {
 
 void SceneBuilder::lathe(Vec3 base, std::span<const ProfilePoint> profile, std::size_t segments,
                          const PatchOptions& options) {
-    // Measure the profile, so that the chart is about as large as what it shows.
+    // Measure the profile, so that the chart is about as large as the surface.
     assert(profile.size() >= 2);
     PatchOptions sized = options;
     sized.columns = segments;
@@ -106,7 +106,7 @@ void SceneBuilder::lathe(Vec3 base, std::span<const ProfilePoint> profile, std::
     sized.size = {static_cast<float>(2 * k_pi) * mean_radius, sized.row_stops.back()};
     for (float& stop : sized.row_stops) stop /= sized.size.y;
 
-    // Turn it: columns go around from +z towards +x.
+    // Revolve it: columns go around from +z towards +x.
     add_grid(sized, [&](std::size_t column, std::size_t row) {
         const ProfilePoint& point = profile[row];
         const double turn = static_cast<double>(column % segments) / static_cast<double>(segments);
@@ -119,7 +119,7 @@ void SceneBuilder::lathe(Vec3 base, std::span<const ProfilePoint> profile, std::
 }
 
 Scene SceneBuilder::finish(const LightmapOptions& options) {
-    // Search for the largest number of grid units per metre at which all charts fit.
+    // Search for the maximum number of grid units per metre at which all charts fit.
     std::vector<ChartSize> sizes(charts_.size());
     std::vector<ChartPlace> places;
     double fits = 0, too_large = options.grid;

@@ -1,50 +1,26 @@
-// A scene's fingerprint: words of 64 bits, mixed in by multiplication, field after field.
+// A scene's hash, field after field.
 #include "scene/scene_hash.h"
 
 #include <bit>
-#include <cstring>
 #include <type_traits>
+
+#include "core/math/hash.h"
 
 namespace lobelia {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "the bytes of arrays are hashed as little-endian words");
+/// A type of this file, so that all add() below are found for it.
+struct SceneHash : Hash {};
 
-/// Each word is a bijection of the state: two inputs of equal length that differ in one word never collide.
-class Hash {
-  public:
-    void word(std::uint64_t value) {
-        // 2^64 over the golden ratio, odd: spreads low bits upwards; the shift brings high bits down again.
-        state_ = (state_ ^ value) * 0x9e3779b97f4a7c15u;
-        state_ ^= state_ >> 32;
-    }
-    void bytes(const void* data, std::size_t size) {
-        word(size);
-        const auto* next = static_cast<const unsigned char*>(data);
-        for (; size >= 8; size -= 8, next += 8) {
-            std::uint64_t value = 0;
-            std::memcpy(&value, next, 8);
-            word(value);
-        }
-        std::uint64_t rest = 0;
-        if (size > 0) std::memcpy(&rest, next, size);
-        word(rest);
-    }
-    [[nodiscard]] std::uint64_t value() const { return state_; }
-
-  private:
-    std::uint64_t state_ = 0x6c6f62656c696131u;  ///< "lobelia1": zeros count, too
-};
-
-void add(Hash& hash, float value) { hash.word(std::bit_cast<std::uint32_t>(value)); }
-void add(Hash& hash, bool value) { hash.word(value ? 1 : 0); }
-void add(Hash& hash, const std::string& text) { hash.bytes(text.data(), text.size()); }
+void add(SceneHash& hash, float value) { hash.word(std::bit_cast<std::uint32_t>(value)); }
+void add(SceneHash& hash, bool value) { hash.word(value ? 1 : 0); }
+void add(SceneHash& hash, const std::string& text) { hash.bytes(text.data(), text.size()); }
 template <class T>
-requires std::is_enum_v<T> ||(std::is_integral_v<T> && !std::is_same_v<T, bool>)void add(Hash& hash, T value) {
+requires std::is_enum_v<T> ||(std::is_integral_v<T> && !std::is_same_v<T, bool>)void add(SceneHash& hash, T value) {
     hash.word(static_cast<std::uint64_t>(value));
 }
 
-// Types without padding are hashed as they lie in memory, whole arrays at once.
+// Hashes types without padding as bytes, whole arrays at once.
 template <class T>
 concept Packed = std::is_same_v<T, Vec2> || std::is_same_v<T, Vec3> || std::is_same_v<T, Rgb> ||
     std::is_same_v<T, std::uint32_t> || std::is_same_v<T, std::array<float, 4>> ||
@@ -52,58 +28,58 @@ concept Packed = std::is_same_v<T, Vec2> || std::is_same_v<T, Vec3> || std::is_s
 static_assert(sizeof(Vec2) == 8 && sizeof(Vec3) == 12 && sizeof(Rgb) == 12 && sizeof(std::array<float, 4>) == 16);
 template <Packed T>
 requires std::is_class_v<T>
-void add(Hash& hash, const T& value) { hash.bytes(&value, sizeof value); }
+void add(SceneHash& hash, const T& value) { hash.bytes(&value, sizeof value); }
 template <Packed T>
-void add(Hash& hash, const std::vector<T>& values) {
+void add(SceneHash& hash, const std::vector<T>& values) {
     hash.bytes(values.data(), values.size() * sizeof(T));
 }
 template <class T>
-requires(!Packed<T>) void add(Hash& hash, const std::vector<T>& values);
+requires(!Packed<T>) void add(SceneHash& hash, const std::vector<T>& values);
 template <class T>
-void add(Hash& hash, const std::optional<T>& value);
+void add(SceneHash& hash, const std::optional<T>& value);
 
 template <class... T>
-void add_all(Hash& hash, const T&... values) {
+void add_all(SceneHash& hash, const T&... values) {
     (add(hash, values), ...);
 }
 
-void add(Hash& hash, const Transform& t) {
+void add(SceneHash& hash, const Transform& t) {
     for (const Vec3& row : t.rows) add(hash, row);
     add(hash, t.translation);
 }
-void add(Hash& hash, const Texture& t) {
+void add(SceneHash& hash, const Texture& t) {
     add_all(hash, t.name, t.width, t.height, t.texels, t.wrap_u, t.wrap_v);
-    // Fields of a later date count only where they are set: hashes of older scenes stay.
+    // Hash fields added later only if they are set, so that hashes of older scenes stay the same.
     if (t.filter != Texture::Filter::linear) add(hash, t.filter);
 }
-void add(Hash& hash, const TextureUse& use) {
+void add(SceneHash& hash, const TextureUse& use) {
     add_all(hash, use.texture, use.uv_set);
     for (const auto& row : use.uv_from_mesh)
         for (float value : row) add(hash, value);
 }
-void add(Hash& hash, const Material& m) {
+void add(SceneHash& hash, const Material& m) {
     add_all(hash, m.name, m.base_color, m.alpha, m.base_color_texture, m.metallic, m.roughness,
             m.metallic_roughness_texture, m.emission, m.emissive_texture, m.alpha_mode, m.alpha_cutoff, m.double_sided,
             m.unlit, m.ior, m.specular, m.specular_color);
 }
-void add(Hash& hash, const Mesh& m) {
+void add(SceneHash& hash, const Mesh& m) {
     add_all(hash, m.name, m.positions, m.normals, m.uv[0], m.uv[1], m.lightmap_uv, m.colors, m.triangles, m.materials);
 }
-void add(Hash& hash, const Object& o) { add_all(hash, o.name, o.mesh, o.world_from_object); }
-void add(Hash& hash, const PunctualLight& l) {
+void add(SceneHash& hash, const Object& o) { add_all(hash, o.name, o.mesh, o.world_from_object); }
+void add(SceneHash& hash, const PunctualLight& l) {
     add_all(hash, l.name, l.kind, l.intensity, l.position, l.direction, l.inner_angle, l.outer_angle, l.angular_radius,
             l.range);
 }
-void add(Hash& hash, const Camera& c) { add_all(hash, c.name, c.world_from_camera, c.vertical_field_of_view); }
-void add(Hash& hash, const Image& image) { add_all(hash, image.width, image.height, image.pixels); }
+void add(SceneHash& hash, const Camera& c) { add_all(hash, c.name, c.world_from_camera, c.vertical_field_of_view); }
+void add(SceneHash& hash, const Image& image) { add_all(hash, image.width, image.height, image.pixels); }
 
 template <class T>
-requires(!Packed<T>) void add(Hash& hash, const std::vector<T>& values) {
+requires(!Packed<T>) void add(SceneHash& hash, const std::vector<T>& values) {
     hash.word(values.size());
     for (const T& value : values) add(hash, value);
 }
 template <class T>
-void add(Hash& hash, const std::optional<T>& value) {
+void add(SceneHash& hash, const std::optional<T>& value) {
     add(hash, value.has_value());
     if (value) add(hash, *value);
 }
@@ -111,7 +87,7 @@ void add(Hash& hash, const std::optional<T>& value) {
 }  // namespace
 
 std::uint64_t scene_hash(const Scene& scene) {
-    Hash hash;
+    SceneHash hash;
     add_all(hash, scene.name, scene.meshes, scene.objects, scene.materials, scene.textures, scene.lights, scene.cameras,
             scene.environment);
     if (scene.origin != Scene{}.origin)

@@ -1,4 +1,4 @@
-// A scene's fingerprint: the same for the same content, on every machine and in every build.
+// A scene's hash: the same for the same content, on every machine and in every build.
 #pragma once
 
 #include <cstdint>
@@ -7,8 +7,8 @@
 
 namespace lobelia {
 
-/// 64 bits over all fields, names included. Bit patterns count, so 0 and -0 differ. It tells different scenes apart
-/// where nobody tries to deceive it.
+/// Returns 64 bits over all fields, names included. Bit patterns count, so 0 and -0 differ. Not collision-resistant
+/// against deliberate attacks.
 [[nodiscard]] std::uint64_t scene_hash(const Scene& scene);
 
 }  // namespace lobelia

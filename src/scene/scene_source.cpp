@@ -1,4 +1,4 @@
-// Scenes by name, with their environment.
+// Loads scenes by name, with their environment.
 #include "scene/scene_source.h"
 
 #include <fmt/core.h>
@@ -12,7 +12,6 @@
 #include "lobelia/gltf.h"
 #include "scene/check_scene.h"
 #include "scene/embedded.h"
-#include "scene/gltf/resources.h"
 #include "scene/sky_light.h"
 
 namespace lobelia {
@@ -28,25 +27,21 @@ GltfReadOptions gltf_options(const SceneSource& source, const std::atomic<bool>*
 }
 
 Result<LoadedScene> read_or_make(const SceneSource& source, const std::atomic<bool>* stop) {
-    // A name of the list is an embedded scene, unless there is a file of that name.
+    // A listed name is an embedded scene, unless a file of that name exists.
     std::error_code code;
     const auto names = embedded_scene_names();
     auto scene = embedded_scene(source.path);
     if (scene && !std::filesystem::is_regular_file(source.path, code)) {
-        return LoadedScene{*std::move(scene), {}, {}};
+        return LoadedScene{*std::move(scene)};
     }
     if (std::filesystem::exists(source.path, code)) return read_gltf(source.path, gltf_options(source, stop));
     return Error{
         fmt::format("{}: no such file, and no embedded scene (known: {})", source.path, fmt::join(names, ", "))};
 }
 
-Status set_file_environment(LoadedScene& scene, const SceneSource& source, InputOptions::Links links) {
-    const std::string& path = *source.environment;
+Status set_file_environment(LoadedScene& scene, const std::string& path, const SceneSource& source) {
     allow_reader_threads(static_cast<int>(std::thread::hardware_concurrency()));
-    auto file = InputFile::open(path, {.links = links});
-    if (!file) return file.error();
-    auto loaded = read_environment(*std::move(file),
-                                   {.ldr = source.ldr == Switch::on, .sanitize = source.sanitize == Switch::on});
+    auto loaded = read_environment(path, {.ldr = source.ldr == Switch::on, .sanitize = source.sanitize == Switch::on});
     if (!loaded) return loaded.error();
     for (const auto& warning : loaded->warnings) scene.warnings.push_back(path + ": " + warning);
     if (loaded->sanitized.total() > 0)
@@ -58,7 +53,7 @@ Status set_file_environment(LoadedScene& scene, const SceneSource& source, Input
 
 }  // namespace
 
-Status set_environment(LoadedScene& scene, const SceneSource& source, InputOptions::Links links) {
+Status set_environment(LoadedScene& scene, const SceneSource& source) {
     const bool has_sun = source.sun_elevation || source.sun_azimuth || source.turbidity;
     if (has_sun && source.environment && *source.environment != "sky")
         return Error{"--sun-elevation, --sun-azimuth and --turbidity belong to the embedded sky: use --env sky"};
@@ -72,35 +67,19 @@ Status set_environment(LoadedScene& scene, const SceneSource& source, InputOptio
         set_sky(scene.scene, sky);
         return Done{};
     }
-    if (*source.environment != "none") return set_file_environment(scene, source, links);
+    if (*source.environment != "none") return set_file_environment(scene, *source.environment, source);
     scene.scene.environment.reset();
     return Done{};
 }
 
-namespace {
-
-Result<LoadedScene> with_environment(Result<LoadedScene> scene, const SceneSource& source, InputOptions::Links links) {
-    if (!scene) return scene;
-    if (const auto status = set_environment(*scene, source, links); !status) return status.error();
+Result<LoadedScene> load_scene(const SceneSource& source, const std::atomic<bool>* stop) {
+    auto scene = read_or_make(source, stop);
+    if (!scene) return scene.error();
+    if (const auto status = set_environment(*scene, source); !status) return status.error();
     if (const auto status = check_scene(scene->scene); !status)
         return Error{source.path + ": " + status.error().message};
+    scene->source = source;
     return scene;
-}
-
-}  // namespace
-
-Result<LoadedScene> load_scene(const SceneSource& source, const std::atomic<bool>* stop) {
-    return with_environment(read_or_make(source, stop), source, InputOptions::Links::followed);
-}
-
-Result<LoadedScene> load_scene_copy(const SceneSource& source, InputOptions::Links environment) {
-    const GltfReadOptions options = gltf_options(source, nullptr);
-    const auto file = InputFile::open(source.path, within_folder(options.most_bytes));
-    if (!file) return file.error();
-    const auto bytes = read_file(*file);
-    if (!bytes) return bytes.error();
-    const auto folder = std::filesystem::path(source.path).parent_path();
-    return with_environment(read_gltf(*bytes, source.path, gltf::files_in(folder), options), source, environment);
 }
 
 }  // namespace lobelia

@@ -4,7 +4,7 @@
 namespace lobelia {
 
 void set_sky(Scene& scene, const SkyOptions& sky_options, std::size_t height) {
-    // The sun: what its disc sends, as a light that can be aimed at.
+    // Add the sun as a directional light with the irradiance of its disc.
     const SunDisc disc = sun_disc(sky_options);
     PunctualLight sun;
     sun.name = "sun";
@@ -16,7 +16,7 @@ void set_sky(Scene& scene, const SkyOptions& sky_options, std::size_t height) {
                   [](const PunctualLight& light) { return light.kind == PunctualLight::Kind::directional; });
     scene.lights.push_back(std::move(sun));
 
-    // Sky and ground without it.
+    // Render sky and ground without the sun.
     const Sky sky(sky_options);
     const LatLong grid{2 * height, height};
     Image image(grid.width, grid.height);

@@ -1,4 +1,4 @@
-// A landscape of a million triangles under the sky: for measuring what large scenes cost.
+// A landscape of a million triangles under the sky: for measuring the cost of large scenes.
 #include <cmath>
 
 #include "scene/embedded.h"
@@ -8,7 +8,7 @@
 namespace lobelia {
 namespace {
 
-/// Height and its slopes: waves of ever shorter length, each turned against the one before and half as high.
+/// Height and its slopes: a sum of waves of decreasing length, each rotated against the one before and half as high.
 struct Height {
     float y = 0, dx = 0, dz = 0;
 };

@@ -1,4 +1,4 @@
-// From objects in their own spaces to one list of triangles.
+// Converts objects in their own spaces to one list of triangles in world space.
 #include "scene/world.h"
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 namespace lobelia {
 namespace {
 
-/// `v` scaled to length 1, or `otherwise` where it has none.
+/// Returns `v` scaled to length 1, or `otherwise` if its length is 0.
 Vec3 unit_or(Vec3 v, Vec3 otherwise) {
     const float l = length(v);
     return l > 0 && std::isfinite(l) ? v * (1 / l) : otherwise;
@@ -18,7 +18,7 @@ Vec3 unit_or(Vec3 v, Vec3 otherwise) {
 float determinant(const Transform& t) { return dot(t.rows[0], cross(t.rows[1], t.rows[2])); }
 
 Vec3 transform_normal(const Transform& t, Vec3 n) {
-    // The matrix of cofactors: the inverse transpose times the determinant, which always exists.
+    // Multiply by the matrix of cofactors: the inverse transpose times the determinant, which always exists.
     const Vec3 turned{dot(cross(t.rows[1], t.rows[2]), n), dot(cross(t.rows[2], t.rows[0]), n),
                       dot(cross(t.rows[0], t.rows[1]), n)};
     return determinant(t) < 0 ? turned * -1.0f : turned;
@@ -36,7 +36,7 @@ std::string World::name_of(std::size_t of_object) const {
 
 namespace {
 
-/// Adds one object after another to a world.
+/// Appends objects to a world.
 class WorldMaker {
   public:
     WorldMaker(const Scene& scene, StopFlag stop)
@@ -63,7 +63,7 @@ class WorldMaker {
         world_.has_lightmap_uv.push_back(!mesh.lightmap_uv.empty());
         world_.names.push_back(object.name);
 
-        // Smooth meshes share their vertices; flat ones get three for each triangle.
+        // Smooth meshes share their vertices; flat ones get three per triangle.
         const auto base = static_cast<std::uint32_t>(world_.positions.size());
         for (std::uint32_t v = 0; !flat && v < mesh.positions.size(); ++v)
             add_vertex(object, v, unit_or(transform_normal(place, mesh.normals[v]), {0, 0, 1}));

@@ -1,4 +1,4 @@
-// What a camera's rays meet first.
+// Resolves camera rays to visible surfaces.
 #include "trace/camera_view.h"
 
 #include <cassert>
@@ -10,7 +10,7 @@
 namespace lobelia {
 namespace {
 
-/// Beyond so many surfaces, one behind another, the path tracer takes over.
+/// Maximum number of transparent surfaces to step through; the path tracer handles the rest.
 constexpr int k_most_layers = 64;
 
 }  // namespace
@@ -53,7 +53,7 @@ CameraView::Meets CameraView::meet(const PathTracer::Hit& hit, std::uint32_t sal
     return surfaces_.passes(hit.triangle, hit.u, hit.v, salt) ? Meets::passes : Meets::stops;
 }
 
-void CameraView::look(std::span<const PathStart> rays, std::span<Sight> out) const {
+void CameraView::resolve(std::span<const PathStart> rays, std::span<Sight> out) const {
     assert(out.size() == rays.size());
     std::vector<std::uint32_t> active;
     for (std::size_t i = 0; i < rays.size(); ++i) {
@@ -63,20 +63,21 @@ void CameraView::look(std::span<const PathStart> rays, std::span<Sight> out) con
     std::vector<PathTracer::Ray> next;
     std::vector<PathTracer::Hit> hits;
     for (int layer = 0; layer < k_most_layers && !active.empty(); ++layer) {
-        // Trace what is still on its way to the next surface, whatever it is.
+        // Trace the active rays to their next surface of any material.
         next.clear();
         for (const std::uint32_t i : active)
             next.push_back({out[i].start.origin, out[i].start.direction, std::numeric_limits<float>::infinity()});
         hits.resize(next.size());
         tracer_->closest(next, hits);
 
-        // Keep those that it lets through.
+        // Keep the rays that pass through it.
         std::size_t kept = 0;
         for (std::size_t k = 0; k < hits.size(); ++k) {
             const std::uint32_t i = active[k];
             if (!std::isfinite(hits[k].distance)) continue;
             Sight::Kind kind{};
-            // What the path tracer's first ray would decide, which may go on from here.
+            // Use the random number of the path tracer's first ray, so that both decide alike when the path tracer
+            // continues.
             const std::uint32_t salt = transparency_salt(mix(rays[i].key, tracer_->options().seed), rays[i].sample, 0);
             const Meets meets = meet(hits[k], salt, kind);
             if (meets == Meets::stops && kind != Sight::Kind::paths) {

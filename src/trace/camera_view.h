@@ -1,4 +1,4 @@
-// What a camera's rays meet first: the surface that a person sees there, behind all that lets the ray through.
+// Resolves camera rays to the first surface visible through transparent ones.
 #pragma once
 
 #include <span>
@@ -9,8 +9,9 @@
 
 namespace lobelia {
 
-/// The rays of a camera's picture. Sample s of pixel (x, y) has the key y * width + x, and its place within the pixel
-/// is point s of that key's first sequence: uniform over the pixel's square, and well spread for any number of samples.
+/// Generates the rays of a camera. Sample s of pixel (x, y) has the key y * width + x; its position within the pixel is
+/// point s of that key's first sequence: uniform over the pixel's square, and well distributed for any number of
+/// samples.
 class CameraRays {
   public:
     CameraRays(const Camera& camera, std::size_t width, std::size_t height, std::uint32_t seed);
@@ -22,32 +23,30 @@ class CameraRays {
     std::uint32_t seed_;
 };
 
-/// Where a ray ends for a person.
+/// The end of a camera ray.
 struct Sight {
     enum class Kind {
-        paths,  ///< whatever is there, PathTracer::trace tells it from `start`
-        unlit,  ///< a surface that is shown as its base colour
+        paths,  ///< to be shaded by PathTracer::trace from `start`
+        unlit,  ///< a surface shown as its base colour
         baked   ///< the front of a surface that has a lightmap
     };
     Kind kind = Kind::paths;
-    PathStart start;      ///< beyond the surfaces that let the ray through
-    PathTracer::Hit hit;  ///< of unlit and baked
+    PathStart start;      ///< behind the transparent surfaces that the ray passed
+    PathTracer::Hit hit;  ///< if the kind is unlit or baked
 };
 
-/// Finds them.
+/// Resolves camera rays to the first surface visible through transparent ones.
 class CameraView {
   public:
-    /// `baked`: of each object, whether its fronts count as baked.
+    /// `baked` has one entry per object: nonzero if its front faces have a lightmap.
     CameraView(const PathTracer& tracer, std::vector<std::uint8_t> baked);
 
-    /// One sight for each ray. Surfaces that blend let rays through by chance, always the same for the same key and
-    /// sample, and the same as the path tracer's.
-    void look(std::span<const PathStart> rays, std::span<Sight> out) const;
+    /// Resolves each ray. Blended surfaces let rays pass at random; the decision depends only on key and sample, and is
+    /// the path tracer's.
+    void resolve(std::span<const PathStart> rays, std::span<Sight> out) const;
 
-    /// Whether look() could find anything but paths.
-    [[nodiscard]] bool has_more_than_paths() const { return more_than_paths_; }
     [[nodiscard]] const Surfaces& surfaces() const { return surfaces_; }
-    /// The colour of an unlit surface.
+    /// Returns the base colour of an unlit surface.
     [[nodiscard]] Rgb unlit_color(const PathTracer::Hit& hit) const;
 
   private:

@@ -13,7 +13,7 @@ using ggx::fast::distribution;
 using ggx::fast::lambda;
 using ggx::fast::visible_normal;
 
-/// Smoother than this counts as this: a mirror's highlight must have a width for light to be aimed into it.
+/// Minimum GGX width: smoother surfaces use it, because light sampling needs a highlight of finite width.
 constexpr float k_least_width = 1e-3f;
 
 /// Schlick's blend from 0 (along the half vector) to 1 (at 90 degrees).
@@ -32,7 +32,7 @@ float left(const Reflectance& s, float cosine) {
     return 1 - (s.taken_0 * (1 - k) + s.taken_90 * k);
 }
 
-/// Probability of choosing the layer: its share of the light at this angle, never less than a tenth of either.
+/// Returns the probability of choosing the layer: its fraction of the light at this angle, clamped to [0.1, 0.9].
 float layer_share(const Reflectance& s, Vec3 wo) {
     if (!s.has_layer) return 0;
     if (is_black(s.diffuse)) return 1;
@@ -67,7 +67,8 @@ Reflected reflect(const Reflectance& s, Vec3 wo, Vec3 wi) {
     if (wi.z <= 0 || wo.z <= 0) return {};
     const float base = wi.z * k_over_pi;
     if (!s.has_layer) return {s.diffuse * base, base};
-    // Layer: D G F / (4 cos cos), times the cosine of wi; visible normals have the density D / (4 cos (1 + Lambda)).
+    // Evaluate the layer: D G F / (4 cos cos), times the cosine of wi; visible normals have the density D / (4 cos (1 +
+    // Lambda)).
     const Vec3 h = normalize(wo + wi);
     const float cosine = dot(wi, h), seen = 1 + lambda(s.width, wo);
     const float d = distribution(s.width, h) / (4 * wo.z), share = layer_share(s, wo);

@@ -1,4 +1,4 @@
-// The path tracer's face: starts in, light out.
+// The path tracer's public interface.
 #include "trace/path_tracer.h"
 
 #include <cassert>
@@ -19,7 +19,7 @@ std::unique_ptr<PathTracer::Scratch, void (*)(PathTracer::Scratch*)> PathTracer:
 
 namespace {
 
-/// Calls visit(first, count) for parts that fit a scratch.
+/// Calls visit(first, count) for consecutive parts that fit a scratch.
 template <class Visit>
 void for_each_wave(std::size_t count, const Visit& visit) {
     for (std::size_t first = 0; first < count; first += k_wave) visit(first, std::min(k_wave, count - first));

@@ -1,4 +1,4 @@
-// Light transport: what radiance arrives along a ray, and what arrives at a point straight from the light sources.
+// Light transport: radiance that arrives along a ray, and direct light that arrives at a point.
 // Kajiya 1986 (the equation); Veach 1997 (multiple importance sampling); Walter et al. 2007, Heitz 2018 (GGX).
 #pragma once
 
@@ -11,32 +11,32 @@
 
 namespace lobelia {
 
-/// Where a path begins, and which it is: `key` names the receiver (texel, probe or pixel), `sample` the point of its
-/// Owen-scrambled Sobol sequences (Burley 2020). The same key, sample and seed give the same path.
+/// The start of a path: `key` identifies the receiver (texel, probe or pixel), `sample` the point of its Owen-scrambled
+/// Sobol sequences (Burley 2020). The same key, sample and seed give the same path.
 struct PathStart {
     Vec3 origin;
-    Vec3 direction;  ///< unit, the way one looks
+    Vec3 direction;  ///< unit, from the receiver outwards
     std::uint32_t key = 0;
     std::uint32_t sample = 0;
 };
 
-/// What arrives along a ray.
+/// Light that arrives along a ray.
 struct Incident {
-    Rgb scattered;           ///< radiance from there that has met a surface at least once [W/(m^2 sr)]
-    Rgb emitted;             ///< radiance of the source that the ray meets first, environment included
-    float source_pdf = 0;    ///< density [1/sr] with which `direct` would have chosen this direction; 0: never
-    float distance = 0;      ///< to the first surface that stops light, or that back face [m]; infinite: none
-    bool back_face = false;  ///< the first surface shows its back, and it is a one-sided material: a leak
+    Rgb scattered;         ///< radiance reflected by at least one surface [W/(m^2 sr)]
+    Rgb emitted;           ///< radiance emitted by the first source on the ray, environment included
+    float source_pdf = 0;  ///< density [1/sr] with which `direct` samples this direction; 0: never
+    float distance = 0;  ///< distance to the first surface that blocks light, or to that back face [m]; infinite: none
+    bool back_face = false;  ///< the first surface shows the back of a one-sided material: a leak
 };
 
-/// One light source as it reaches a point: a direction, and irradiance across it.
+/// One sampled light source: a direction, and irradiance across it.
 struct DirectLight {
     Vec3 direction;  ///< towards the source, unit
-    Rgb irradiance;  ///< L / pdf, or that of a light without size, on a surface that faces it [W/m^2]; 0: hidden, none
-    float pdf = 0;   ///< of the direction [1/sr]; 0 where only `direct` can find this light (it has no size)
+    Rgb irradiance;  ///< L / pdf, or of a light without size; on a surface facing it [W/m^2]; 0: occluded or none
+    float pdf = 0;   ///< density of the direction [1/sr]; 0 if only `direct` can sample this light (it has no size)
 };
 
-/// Immutable; shared between threads, each with a scratch of its own.
+/// Immutable; shared between threads, each with its own scratch.
 class PathTracer {
   public:
     class Scratch;
@@ -48,46 +48,46 @@ class PathTracer {
 
     [[nodiscard]] std::unique_ptr<Scratch, void (*)(Scratch*)> make_scratch() const;
 
-    /// Follows each path; `out` has one entry for each. Any number at a time; a few hundred fill the machine.
-    /// `normals` (one each, or none) are those that `direct` is given for the same starts: `source_pdf` depends on
-    /// them.
+    /// Traces each path into the entry of `out` with the same index. Any number of starts; a few hundred or more use
+    /// the machine fully. `normals` (one each, or none) are those passed to `direct` for the same starts: `source_pdf`
+    /// depends on them.
     void trace(std::span<const PathStart> starts, std::span<const Vec3> normals, std::span<Incident> out,
                Scratch& scratch) const;
     void trace(std::span<const PathStart> starts, std::span<Incident> out, Scratch& scratch) const {
         trace(starts, {}, out, scratch);
     }
 
-    /// One light source for each start (its direction is ignored), chosen in proportion to power and, roughly,
-    /// distance; lights below the plane through the origin with `normal` are not chosen where normals are given (one
-    /// each, or none). Nothing where next_event is off. As receivers may not see the backs of one-sided surfaces, these
-    /// hide the light.
+    /// Samples one light source for each start (ignoring its direction), in proportion to power and, roughly, distance;
+    /// with normals (one each, or none), lights below the plane through the origin are not sampled. Returns black if
+    /// next_event is off. The backs of one-sided surfaces block the light, because receivers may not see them.
     void direct(std::span<const PathStart> starts, std::span<const Vec3> normals, std::span<DirectLight> out,
                 Scratch& scratch) const;
 
-    /// Closest hits without shading, for whoever asks about the geometry. Every surface counts, whatever its material.
+    /// Closest hits without shading, for geometric queries. All surfaces count, whatever their material.
     struct Hit {
         float distance = 0;  ///< infinite: none
         std::uint32_t triangle = 0;
         float u = 0, v = 0;      ///< barycentric weights of the triangle's vertices 1 and 2
-        bool back_face = false;  ///< it shows its back, be it one-sided or not
+        bool back_face = false;  ///< the back was hit, of a one-sided or two-sided surface
     };
     struct Ray {
         Vec3 origin;
         Vec3 direction;      ///< unit
-        float farthest = 0;  ///< no hit beyond; infinite: anywhere
+        float farthest = 0;  ///< maximum distance of a hit; may be infinite
     };
     void closest(std::span<const Ray> rays, std::span<Hit> out) const;
-    /// Whether a surface stops light on the ray: backs of one-sided surfaces do not, whatever lies at the same place.
+    /// Returns whether a surface blocks light on the ray; backs of one-sided surfaces do not, even if a front
+    /// coincides.
     [[nodiscard]] bool stops(const Ray& ray) const;
 
-    /// Whether there is any light at all: a source, or an environment that is not black.
+    /// Returns whether the scene has light: a source, or an environment that is not black.
     [[nodiscard]] bool has_light() const;
-    /// Rays traced so far with this scratch: closest hits and shadow rays.
+    /// Returns the number of rays traced with this scratch: closest hits and shadow rays.
     [[nodiscard]] static std::uint64_t rays(const Scratch& scratch);
     [[nodiscard]] const World& world() const;
     [[nodiscard]] const Scene& scene() const;
     [[nodiscard]] const PathOptions& options() const;
-    /// By how much to lift a ray's origin off a surface at `position` so that it does not meet it again [m].
+    /// Returns the offset [m] by which a ray's origin must leave a surface at `position` so as not to hit it again.
     [[nodiscard]] float lift(Vec3 position) const;
 
   private:

@@ -1,4 +1,4 @@
-// Embree's scene, and the filter that lets light through what does not stop it.
+// Embree's scene, and the filter for surfaces that let light pass.
 #include "trace/rays.h"
 
 #if LOBELIA_EMBREE == 3
@@ -8,15 +8,16 @@
 #endif
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cstring>
-#include <limits>
 #include <new>
+#include <utility>
+
+#include "lobelia/simd.h"
 
 namespace lobelia {
 namespace {
-
-constexpr float k_infinite = std::numeric_limits<float>::infinity();
 
 #if LOBELIA_EMBREE == 3
 using Context = RTCIntersectContext;
@@ -60,17 +61,17 @@ void occlude(RTCScene scene, Context& context, RTCFilterFunctionN filter, RTCRay
 }
 #endif
 
-/// What the filter needs to know; Embree hands the context back to it.
+/// Data of the filter; Embree passes a pointer to the context.
 struct FilterContext {
     Context embree;  // first, so that a pointer to it is a pointer to this
     const std::uint8_t* kinds;
     const Transparency* transparency;
     std::uint32_t salt;
-    std::uint8_t passing;  ///< the kinds that may let light through
+    std::uint8_t passing;  ///< kinds that let light pass
 };
 
-/// Embree calls this for every surface that a ray meets, one at a time since rays are traced one at a time.
-void reject_what_passes(const RTCFilterFunctionNArguments* a) {
+/// Rejects hits that let light pass. Embree calls this for each hit, with one ray at a time.
+void reject_passable_hits(const RTCFilterFunctionNArguments* a) {
     assert(a->N == 1);
     const auto& context = *reinterpret_cast<const FilterContext*>(a->context);
     const auto& ray = *reinterpret_cast<const RTCRay*>(a->ray);
@@ -109,7 +110,17 @@ RayHit find(RTCScene scene, Context& context, RTCFilterFunctionN filter, RTCRay 
     return {query.ray.tfar, query.hit.primID, query.hit.u, query.hit.v};
 }
 
+/// Tells Embree whether to continue building.
 bool go_on(void* stop, double /*done*/) { return !static_cast<const StopFlag*>(stop)->is_set(); }
+
+/// Lets Embree use the instruction set of the kernels: what hits a ray reports differs in the last bits, too.
+const char* device_configuration() {
+    constexpr std::array sets = {std::pair{"AVX3", "isa=avx512"}, std::pair{"AVX2", "isa=avx2"},
+                                 std::pair{"SSE4", "isa=sse4.2"}, std::pair{"SCALAR", "isa=sse2"}};
+    for (const auto& [target, configuration] : sets)
+        if (simd_target() == target) return configuration;
+    return nullptr;
+}
 
 }  // namespace
 
@@ -122,7 +133,7 @@ RayScene::RayScene(const World& world, std::vector<std::uint8_t> kinds, const Tr
     : kinds_(std::move(kinds)), transparency_(&transparency), handles_(new Handles), all_kinds_(0) {
     for (const std::uint8_t kind : kinds_) all_kinds_ |= kind;
     assert(kinds_.size() == world.triangles.size());
-    handles_->device = rtcNewDevice(nullptr);
+    handles_->device = rtcNewDevice(device_configuration());
     handles_->scene = rtcNewScene(handles_->device);
     rtcSetSceneFlags(handles_->scene, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | k_filter_flag));
     rtcSetSceneBuildQuality(handles_->scene, RTC_BUILD_QUALITY_HIGH);
@@ -166,7 +177,7 @@ RayHit RayScene::closest(Vec3 origin, Vec3 direction, float farthest) const {
 RayHit RayScene::closest_stop(Vec3 origin, Vec3 direction, std::uint32_t salt, Backs backs) const {
     FilterContext context{{}, kinds_.data(), transparency_, salt, passing(backs)};
     start(context.embree);
-    return find(handles_->scene, context.embree, reject_what_passes, make_ray(origin, direction, k_infinite));
+    return find(handles_->scene, context.embree, reject_passable_hits, make_ray(origin, direction, k_infinite));
 }
 
 bool RayScene::stopped(Vec3 origin, Vec3 direction, float distance, std::uint32_t salt, Backs backs) const {
@@ -174,7 +185,7 @@ bool RayScene::stopped(Vec3 origin, Vec3 direction, float distance, std::uint32_
     start(context.embree);
     RTCRay ray = make_ray(origin, direction, distance);
     const bool all_stop = (all_kinds_ & context.passing) == 0;
-    occlude(handles_->scene, context.embree, all_stop ? nullptr : reject_what_passes, ray);
+    occlude(handles_->scene, context.embree, all_stop ? nullptr : reject_passable_hits, ray);
     return ray.tfar < 0;
 }
 

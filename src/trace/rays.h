@@ -1,37 +1,40 @@
-// Rays against triangles: Embree 3 or 4 behind one face. Only rays.* know which.
+// Ray-triangle intersection: Embree 3 or 4 behind one interface. Only rays.* depend on the version.
 // Wald et al. 2014 (Embree); Woop et al. 2013 (no gaps between triangles).
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "scene/world.h"
 
 namespace lobelia {
 
-/// The first triangle on a ray.
+inline constexpr float k_infinite = std::numeric_limits<float>::infinity();
+
+/// The first triangle hit.
 struct RayHit {
     float distance = 0;  ///< infinite: none
     std::uint32_t triangle = 0;
     float u = 0, v = 0;  ///< barycentric weights of the triangle's vertices 1 and 2
 };
 
-/// How a triangle treats light that crosses it; a sum of these.
+/// Flags: how a triangle treats light that crosses it.
 inline constexpr std::uint8_t k_one_sided = 1;    ///< light from behind passes
-inline constexpr std::uint8_t k_transparent = 2;  ///< the transparency is to be asked
+inline constexpr std::uint8_t k_transparent = 2;  ///< Transparency::passes decides
 
-/// Says which light passes through a transparent triangle's front. The answer depends on the arguments alone, for the
-/// same place may be asked about more than once.
+/// Decides which light passes through a transparent triangle's front. The result must depend on the arguments alone:
+/// the same point may be queried more than once.
 class Transparency {
   public:
     virtual ~Transparency() = default;
     [[nodiscard]] virtual bool passes(std::uint32_t triangle, float u, float v, std::uint32_t salt) const = 0;
 };
 
-/// What light that meets the back of a one-sided triangle does.
+/// Behaviour of light that hits the back of a one-sided triangle.
 enum class Backs { pass, stop };
 
-/// The triangles of a world. Immutable; any number of threads may ask.
+/// The triangles of a world. Immutable; safe for concurrent queries.
 class RayScene {
   public:
     /// One entry of `kinds` for each triangle; `transparency` must outlive this. Throws Stopped.
@@ -40,11 +43,11 @@ class RayScene {
     RayScene(const RayScene&) = delete;
     RayScene& operator=(const RayScene&) = delete;
 
-    /// The first surface of whatever kind between 0 and `farthest`.
+    /// Returns the first surface of any kind between 0 and `farthest`.
     [[nodiscard]] RayHit closest(Vec3 origin, Vec3 direction, float farthest) const;
-    /// The first surface that stops light, `salt` being the ray's random number where chance decides.
+    /// Returns the first surface that blocks light; `salt` is the ray's random number for blended transparency.
     [[nodiscard]] RayHit closest_stop(Vec3 origin, Vec3 direction, std::uint32_t salt, Backs backs) const;
-    /// Whether a surface stops light within `distance`.
+    /// Returns whether a surface blocks light within `distance`.
     [[nodiscard]] bool stopped(Vec3 origin, Vec3 direction, float distance, std::uint32_t salt, Backs backs) const;
 
     [[nodiscard]] std::uint8_t kind(std::uint32_t triangle) const { return kinds_[triangle]; }
@@ -56,7 +59,7 @@ class RayScene {
     std::vector<std::uint8_t> kinds_;
     const Transparency* transparency_;
     Handles* handles_;
-    std::uint8_t all_kinds_;  ///< whatever occurs
+    std::uint8_t all_kinds_;  ///< union of all triangles' kinds
 };
 
 }  // namespace lobelia

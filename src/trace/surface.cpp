@@ -1,4 +1,4 @@
-// From triangles and materials to shading points.
+// Shading points from triangles and materials.
 #include "trace/surface.h"
 
 namespace lobelia {
@@ -11,7 +11,7 @@ T blend(const T& a, const T& b, const T& c, float u, float v) {
     return a * (1 - u - v) + b * u + c * v;
 }
 
-/// Beyond this angle's cosine a vertex normal counts as the triangle's own.
+/// Vertex normals within this cosine of the triangle's normal count as equal to it.
 constexpr float k_flat_cosine = 1 - 1e-6f;
 
 }  // namespace
@@ -112,7 +112,7 @@ SurfacePoint Surfaces::point(std::uint32_t triangle, float u, float v, Vec3 dire
         const auto& corners = world_->triangles[triangle];
         const Vec3 n =
             blend(world_->normals[corners[0]], world_->normals[corners[1]], world_->normals[corners[2]], u, v) * side;
-        // Where the smooth surface would be seen from behind, or is no surface at all, the flat one stands in.
+        // Fall back to the triangle's normal where the smooth one is degenerate or faces away.
         const float size = length(n);
         if (size > 0 && dot(n, direction) < 0 && dot(n, p.face) > 0) p.normal = n * (1 / size);
     }

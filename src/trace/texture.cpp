@@ -18,7 +18,7 @@ std::array<float, 256> make_table(Curve curve) {
     return table;
 }
 
-/// Texel i of a row or column of n, i anywhere.
+/// Maps texel index i, of any value, into a row or column of n texels.
 std::size_t wrapped(std::int64_t i, std::int64_t n, Texture::Wrap wrap) {
     switch (wrap) {
         case Texture::Wrap::clamp:
@@ -33,13 +33,13 @@ std::size_t wrapped(std::int64_t i, std::int64_t n, Texture::Wrap wrap) {
     return 0;
 }
 
-/// The texels on both sides of a coordinate, and its distance from the first [texels]; unfiltered, the texel around it.
+/// The two texels next to a coordinate, and the distance to the first [texels]; unfiltered: the nearest texel.
 struct Neighbours {
     std::size_t first, second;
     float share;
 };
 Neighbours neighbours(float coordinate, std::size_t size, Texture::Wrap wrap, Texture::Filter filter) {
-    // Beyond this no fraction is left in a float; it also keeps the whole number in range.
+    // Larger coordinates have no fraction in float; the limit also keeps the integer part in range.
     constexpr float most = 0x1p24f;
     const float bounded = std::isfinite(coordinate) ? std::clamp(coordinate, -most, most) : 0;
     const double at = static_cast<double>(bounded) * static_cast<double>(size) - 0.5;

@@ -1,15 +1,13 @@
-// Waves of paths, bounce by bounce, with the light sources aimed at from every surface.
+// Wavefront path tracing, bounce by bounce, with next event estimation at every surface.
 // Kajiya 1986; Arvo and Kirk 1990 (Russian roulette); Veach 1997 (balance heuristic).
 #include "trace/transport.h"
 
 #include <cassert>
-#include <limits>
 
 namespace lobelia {
 namespace {
 
-constexpr float k_infinite = std::numeric_limits<float>::infinity();
-/// A front this much farther away, relatively, lies on the same spot as the back that was met.
+/// Relative distance within which a front face coincides with the back face that was hit.
 constexpr float k_same_spot = 1e-5f;
 
 }  // namespace
@@ -24,8 +22,8 @@ PathTracer::Implementation::Implementation(const Scene& s, const World& w, const
     assert(o.bounces >= 0);
 }
 
-/// Finds the surface that stops the path where the first one does not; false where there is none. A receiver must not
-/// see backs: they are reported, and what the path finds beyond them is for pictures alone.
+/// Resolves a hit to the first surface that blocks light; returns false if there is none. Receivers must not see back
+/// faces: the first is reported in `out`, and light found beyond it is for pictures only.
 bool PathTracer::Implementation::stop(const Path& path, std::uint32_t salt, int depth, RayHit& hit, Incident& out,
                                       Scratch& scratch) const {
     if (hit.distance == k_infinite) return false;
@@ -33,7 +31,7 @@ bool PathTracer::Implementation::stop(const Path& path, std::uint32_t salt, int 
         return (rays.kind(hit.triangle) & k_one_sided) != 0 &&
                dot(surfaces.facet(hit.triangle).normal, path.direction) > 0;
     };
-    const auto look_again = [&](Backs backs) {
+    const auto trace_again = [&](Backs backs) {
         hit = rays.closest_stop(path.origin, path.direction, salt, backs);
         ++scratch.rays;
         return hit.distance != k_infinite;
@@ -42,12 +40,12 @@ bool PathTracer::Implementation::stop(const Path& path, std::uint32_t salt, int 
     const bool clear =
         (rays.kind(hit.triangle) & k_transparent) != 0 && surfaces.passes(hit.triangle, hit.u, hit.v, salt);
     if (!clear && !shows_back()) return true;
-    if (depth > 0) return look_again(Backs::pass);
+    if (depth > 0) return trace_again(Backs::pass);
 
-    if (clear && !look_again(Backs::stop)) return false;
+    if (clear && !trace_again(Backs::stop)) return false;
     if (!shows_back()) return true;
     const float first = hit.distance;
-    const bool stopped = look_again(Backs::pass);
+    const bool stopped = trace_again(Backs::pass);
     if (hit.distance > first * (1 + k_same_spot)) {
         out.back_face = true;
         out.distance = first;
@@ -55,7 +53,7 @@ bool PathTracer::Implementation::stop(const Path& path, std::uint32_t salt, int 
     return stopped;
 }
 
-/// Adds light that the path met by chance, weighted against having been aimed at (balance heuristic).
+/// Adds the emission that a path hit, with the MIS weight against light sampling (balance heuristic).
 void PathTracer::Implementation::add_emitted(const Path& path, int depth, const SkyLight& light, Incident& out) const {
     if (depth == 0) {
         out.emitted = light.radiance;
@@ -66,7 +64,8 @@ void PathTracer::Implementation::add_emitted(const Path& path, int depth, const 
     }
 }
 
-void PathTracer::Implementation::meet_emission(const Path& path, int depth, const RayHit& hit, Incident& out) const {
+void PathTracer::Implementation::add_surface_emission(const Path& path, int depth, const RayHit& hit,
+                                                      Incident& out) const {
     const Facet& f = surfaces.facet(hit.triangle);
     if (f.emitter == k_no_emitter) return;
     const float cosine = std::abs(dot(f.normal, path.direction));
@@ -75,9 +74,9 @@ void PathTracer::Implementation::meet_emission(const Path& path, int depth, cons
     add_emitted(path, depth, {surfaces.emission(hit.triangle, hit.u, hit.v), pdf}, out);
 }
 
-/// Aims at one light source; false where nothing can come from it.
-bool PathTracer::Implementation::aim(const Path& path, const SurfacePoint& at, const Axes& axes, const Draws& draws,
-                                     ShadowRay& shadow) const {
+/// Samples a light source and fills the shadow ray; returns false if no light can arrive.
+bool PathTracer::Implementation::sample_light(const Path& path, const SurfacePoint& at, const Axes& axes,
+                                              const Draws& draws, ShadowRay& shadow) const {
     const LightSample light = lights.sample({at.origin, at.normal}, draws.light_choice, draws.light);
     if (is_black(light.irradiance) || dot(light.direction, at.face) <= 0) return false;
     const Vec3 wo = axes.local(path.direction * -1.0f), wi = axes.local(light.direction);
@@ -92,7 +91,7 @@ bool PathTracer::Implementation::aim(const Path& path, const SurfacePoint& at, c
     return true;
 }
 
-/// Sends the path on in a new direction; false where it ends.
+/// Samples the continuation ray; returns false if the path ends.
 bool PathTracer::Implementation::scatter_on(Path& path, const SurfacePoint& at, const Axes& axes,
                                             const Draws& draws) const {
     const Scattered s = scatter(at.reflectance, axes.local(path.direction * -1.0f), draws.scatter, draws.layer);
@@ -103,7 +102,7 @@ bool PathTracer::Implementation::scatter_on(Path& path, const SurfacePoint& at, 
     const float strength = largest(path.throughput);
     if (!(strength > 0)) return false;
 
-    // Russian roulette: weak paths end by chance, the others carry their light.
+    // Russian roulette: end weak paths at random, and scale the survivors up.
     if (options.roulette == Switch::on && strength < 1) {
         if (draws.roulette >= strength) return false;
         path.throughput = path.throughput * (1 / strength);
@@ -123,11 +122,11 @@ void PathTracer::Implementation::draw(std::size_t count, int depth, Scratch& scr
     if (surfaces.layered()) scratch.counters.draw(count, first + k_layer, scratch.layer);
 }
 
-/// Lets every path meet what its ray has hit, and take up what shines there; returns how many have a surface to scatter
-/// from, at the front of the scratch.
-std::size_t PathTracer::Implementation::arrive(std::span<Incident> out, std::size_t count, int depth,
-                                               Scratch& scratch) const {
-    std::size_t arrived = 0;
+/// Processes hits: resolves transparency, adds emission, and moves the paths that hit a surface to the front of the
+/// scratch. Returns their number.
+std::size_t PathTracer::Implementation::process_hits(std::span<Incident> out, std::size_t count, int depth,
+                                                     Scratch& scratch) const {
+    std::size_t kept = 0;
     for (std::size_t i = 0; i < count; ++i) {
         const Path& path = scratch.paths[i];
         RayHit hit = scratch.hits[i];
@@ -139,17 +138,17 @@ std::size_t PathTracer::Implementation::arrive(std::span<Incident> out, std::siz
             add_emitted(path, depth, lights.sky({path.origin, path.normal}, path.direction), result);
             continue;
         }
-        meet_emission(path, depth, hit, result);
+        add_surface_emission(path, depth, hit, result);
         if (depth == options.bounces) continue;
-        scratch.paths[arrived] = path;
-        scratch.hits[arrived] = hit;
-        scratch.counters.move(i, arrived++);
+        scratch.paths[kept] = path;
+        scratch.hits[kept] = hit;
+        scratch.counters.move(i, kept++);
     }
-    return arrived;
+    return kept;
 }
 
-/// Aims at a light source from every surface, and sends the paths on; returns how many go on, at the front.
-std::size_t PathTracer::Implementation::depart(std::size_t count, int depth, Scratch& scratch) const {
+/// Generates a shadow ray and a continuation ray at every surface; returns the number of surviving paths, at the front.
+std::size_t PathTracer::Implementation::extend_paths(std::size_t count, int depth, Scratch& scratch) const {
     std::size_t alive = 0;
     for (std::size_t i = 0; i < count; ++i) {
         Path path = scratch.paths[i];
@@ -159,7 +158,7 @@ std::size_t PathTracer::Implementation::depart(std::size_t count, int depth, Scr
         const Draws draws{scratch.scatter[i], scratch.light[i], scratch.choice.a[i], scratch.choice.b[i],
                           scratch.layer.a[i]};
         ShadowRay& shadow = scratch.shadows[scratch.shadow_count];
-        if (aim(path, at, axes, draws, shadow)) {
+        if (sample_light(path, at, axes, draws, shadow)) {
             shadow.salt = scratch.counters.salt(i, 2 * static_cast<std::uint32_t>(depth) + 1);
             ++scratch.shadow_count;
         }
@@ -170,8 +169,8 @@ std::size_t PathTracer::Implementation::depart(std::size_t count, int depth, Scr
     return alive;
 }
 
-/// Adds the light that was aimed at and is not hidden.
-void PathTracer::Implementation::light_up(std::span<Incident> out, Scratch& scratch) const {
+/// Traces the shadow rays, and adds the light of the unoccluded ones.
+void PathTracer::Implementation::add_direct_light(std::span<Incident> out, Scratch& scratch) const {
     for (std::size_t i = 0; i < scratch.shadow_count; ++i) {
         const ShadowRay& s = scratch.shadows[i];
         if (!rays.stopped(s.origin, s.direction, s.distance, s.salt, Backs::pass))
@@ -186,10 +185,10 @@ void PathTracer::Implementation::follow(std::span<Incident> out, std::size_t cou
         for (std::size_t i = 0; i < count; ++i)
             scratch.hits[i] = rays.closest(scratch.paths[i].origin, scratch.paths[i].direction, k_infinite);
         scratch.rays += count;
-        count = arrive(out, count, depth, scratch);
+        count = process_hits(out, count, depth, scratch);
         draw(count, depth, scratch);
-        count = depart(count, depth, scratch);
-        light_up(out, scratch);
+        count = extend_paths(count, depth, scratch);
+        add_direct_light(out, scratch);
     }
 }
 

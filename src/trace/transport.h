@@ -1,4 +1,4 @@
-// The inside of the path tracer: geometry, surfaces, lights, and what happens to a path at each of them.
+// The internals of the path tracer: geometry, surfaces, lights, and the stages of a path.
 #pragma once
 
 #include "core/sample/directions.h"
@@ -9,7 +9,7 @@ namespace lobelia {
 
 /// Sobol dimensions, in pairs. Pair 0 is the receiver's own direction (gather.h).
 inline constexpr std::uint32_t k_direct_point = 1, k_direct_choice = 2, k_first_surface = 3;
-/// Of each surface on a path, counted from k_first_surface + k_for_each_surface * its number.
+/// Offsets of the pairs used at surface n of a path, from k_first_surface + k_for_each_surface * n.
 inline constexpr std::uint32_t k_scatter = 0, k_light_point = 1, k_choice = 2, k_layer = 3, k_for_each_surface = 4;
 
 struct PathTracer::Implementation {
@@ -22,18 +22,19 @@ struct PathTracer::Implementation {
 
     Implementation(const Scene& s, const World& w, const PathOptions& o, StopFlag stop);
 
-    /// Follows the first `count` paths of the scratch to their ends.
+    /// Traces the first `count` paths of the scratch to their ends.
     void follow(std::span<Incident> out, std::size_t count, Scratch& scratch) const;
 
   private:
-    std::size_t arrive(std::span<Incident> out, std::size_t count, int depth, Scratch& scratch) const;
-    std::size_t depart(std::size_t count, int depth, Scratch& scratch) const;
+    std::size_t process_hits(std::span<Incident> out, std::size_t count, int depth, Scratch& scratch) const;
+    std::size_t extend_paths(std::size_t count, int depth, Scratch& scratch) const;
     void draw(std::size_t count, int depth, Scratch& scratch) const;
-    void light_up(std::span<Incident> out, Scratch& scratch) const;
+    void add_direct_light(std::span<Incident> out, Scratch& scratch) const;
     bool stop(const Path& path, std::uint32_t salt, int depth, RayHit& hit, Incident& out, Scratch& scratch) const;
     void add_emitted(const Path& path, int depth, const SkyLight& light, Incident& out) const;
-    void meet_emission(const Path& path, int depth, const RayHit& hit, Incident& out) const;
-    bool aim(const Path& path, const SurfacePoint& at, const Axes& axes, const Draws& draws, ShadowRay& shadow) const;
+    void add_surface_emission(const Path& path, int depth, const RayHit& hit, Incident& out) const;
+    bool sample_light(const Path& path, const SurfacePoint& at, const Axes& axes, const Draws& draws,
+                      ShadowRay& shadow) const;
     bool scatter_on(Path& path, const SurfacePoint& at, const Axes& axes, const Draws& draws) const;
 };
 

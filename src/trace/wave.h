@@ -1,4 +1,4 @@
-// Paths in flight: a few hundred at a time, all at the same bounce, the dead ones closed up after each.
+// Wavefronts: a few hundred paths at the same bounce, compacted after each.
 // Laine, Karras and Aila 2013 (wavefronts).
 #pragma once
 
@@ -11,25 +11,25 @@
 
 namespace lobelia {
 
-/// Paths that are followed together: enough for loops to be worth starting, few enough for the second-level cache.
+/// Paths traced together: enough to amortise loops, few enough for the second-level cache.
 inline constexpr std::size_t k_wave = 1024;
 
-/// A path on its way to its next surface.
+/// A path between two surfaces.
 struct Path {
     Vec3 origin, direction;
-    Vec3 normal;            ///< of the surface that it left, or (0, 0, 0): where the light sources were chosen for
-    Rgb throughput;         ///< reflectances times cosines over pdfs, so far
-    float pdf = 0;          ///< of the direction [1/sr]
-    std::uint32_t out = 0;  ///< which start
+    Vec3 normal;     ///< shading normal of the surface that it left, as passed to light sampling; 0: all directions
+    Rgb throughput;  ///< product of BRDF times cosine over pdf
+    float pdf = 0;   ///< density of the direction [1/sr]
+    std::uint32_t out = 0;  ///< index of the start
 };
 
-/// The random numbers of a path at one surface.
+/// Random numbers of a path at one surface.
 struct Draws {
     Pair scatter, light;
     float light_choice = 0, roulette = 0, layer = 0;
 };
 
-/// A ray towards a light source, and what arrives if nothing stands between.
+/// A shadow ray, and the radiance to add if it is unoccluded.
 struct ShadowRay {
     Vec3 origin, direction;
     float distance = 0;
@@ -38,12 +38,12 @@ struct ShadowRay {
     std::uint32_t out = 0;
 };
 
-/// The random number of ray number `ray` of a path, for transparency; `mixed_key` is mix(key, seed) of its start.
+/// Returns the random number for the transparency of ray `ray` of a path; `mixed_key` is mix(key, seed) of its start.
 [[nodiscard]] inline std::uint32_t transparency_salt(std::uint32_t mixed_key, std::uint32_t sample, std::uint32_t ray) {
     return mix(mix(mixed_key, sample), ray);
 }
 
-/// Which point of which sequence each path reads: parallel to the paths, for they are read in vectors.
+/// Sequence and point of each path: arrays parallel to the paths, for vectorised draws.
 struct Counters {
     std::vector<std::uint32_t> mixed_keys = std::vector<std::uint32_t>(k_wave);
     std::vector<std::uint32_t> samples = std::vector<std::uint32_t>(k_wave);
@@ -55,7 +55,7 @@ struct Counters {
     [[nodiscard]] std::uint32_t salt(std::size_t path, std::uint32_t ray) const {
         return transparency_salt(mixed_keys[path], samples[path], ray);
     }
-    /// Pair number `dimension_pair` of the first `count`.
+    /// Draws pair `dimension_pair` for the first `count` paths.
     void draw(std::size_t count, std::uint32_t dimension_pair, Pairs& out) const {
         const std::size_t whole = round_up_to_lanes(count);
         pairs_of(std::span(mixed_keys).first(whole), std::span(samples).first(whole), dimension_pair, out);

@@ -10,6 +10,7 @@
 #include "bake_files.h"
 #include "folders.h"
 #include "io/read_exr_channels.h"
+#include "io/texture/container.h"
 #include "lobelia/storage.h"
 
 namespace lobelia {
@@ -205,6 +206,25 @@ TEST(BakeTextures, HalvesRatiosAndValidityWhereNothingIsAskedFor) {
         EXPECT_NEAR(static_cast<float>(validity.data[i]) / 255, bake.pages[1].validity[i], 0.501f / 255);
 }
 
+TEST(BakeTextures, EveryContainerIsTheExtensionOfItsFiles) {
+    const Bake bake = some_bake("sh1/moments/convolution");
+    for (const TextureContainer& container : texture_containers()) {
+        const test::TestFolder folder("bake-containers");
+        const std::string name(container.name);
+        ASSERT_TRUE(write_bake(folder.path(), bake, {.storages = {{"float16"}}, .container = name}));
+        const auto manifest = read_manifest(folder.path());
+        ASSERT_TRUE(manifest) << manifest.error().message;
+        EXPECT_EQ(manifest->pages[0].validity, "page-0.validity." + name);
+        EXPECT_EQ(manifest->pages[0].textures[0].file, "page-0.float16.v0." + name);
+        EXPECT_TRUE(fs::exists(folder.path() / manifest->pages[0].textures[0].file));
+    }
+    const test::TestFolder folder("bake-containers");
+    const auto refused = write_bake(folder.path() / "none", bake, {.container = "zip"});
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().message, find_texture_container("zip").error().message);
+    EXPECT_EQ(folder.entries(), 0u);
+}
+
 TEST(BakeTextures, OnlyThoseAskedFor) {
     const test::TestFolder folder("bake-textures-chosen");
     const Bake bake = some_bake("sh1/moments/convolution");
@@ -272,7 +292,7 @@ TEST(BakeFolder, AFileInItsPlaceIsAnError) {
     test::overwrite(folder.path() / "file", "text");
     const auto status = write_bake(folder.path() / "file", some_bake("sh1/moments/convolution"));
     ASSERT_FALSE(status);
-    EXPECT_NE(status.error().message.find("file: cannot be made a folder"), std::string::npos);
+    EXPECT_NE(status.error().message.find("file: cannot create the folder"), std::string::npos);
     EXPECT_EQ(test::contents(folder.path() / "file"), "text");
 }
 

@@ -155,8 +155,10 @@ TEST_F(BakeOutput, HostileManifestsAreRefusedWithTheirPlace) {
         {"\"seconds\": 1.5", "\"seconds\": \"1.5\"", "statistics.seconds: not a finite number"},
         {"\"by\": \"samples\"", "\"by\": \"magic\"", "options.shard.by: \"magic\" is none of tiles, samples"},
         {"\"count\": 5", "\"count\": 0", "options.shard.count"},
-        {"{", "[{", "broken JSON at byte"},
-        {"\"frame\"", "\"name\": 1, \"frame\"", "stands twice"},
+        {"\"crc32\": \"", "\"crc32\": \"z", "files[0].crc32: not 8 hexadecimal digits"},
+        {"\"size\": ", "\"size\": -", "files[0].size"},
+        {"{", "[{", "invalid JSON at byte"},
+        {"\"frame\"", "\"name\": 1, \"frame\"", "duplicate key \"name\""},
     };
     for (const auto& c : cases) {
         std::string text = good;
@@ -196,7 +198,9 @@ TEST_F(BakeOutput, PagesWithoutMeaningAreRefused) {
     const auto with = [&](const auto& change) {
         Bake bake = some_bake("sh1/moments/convolution");
         EXPECT_TRUE(write_bake(path(), bake));
-        const auto manifest = read_manifest(path());
+        auto manifest = read_manifest(path());
+        manifest->files.clear();
+        test::overwrite(path() / "bake.json", to_json_text(*manifest));
         change(bake);
         for (std::size_t p = 0; p < bake.pages.size(); ++p) {
             auto file = StagedFile::create(path() / manifest->pages[p].file);

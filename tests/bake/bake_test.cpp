@@ -231,7 +231,7 @@ TEST(Bake, OneObjectIsOneByItsNameAndHasUVs) {
     EXPECT_EQ(error_for("ceiling"), "");
     EXPECT_NE(error_for("cieling").find("did you mean ceiling?"), std::string::npos);
     scene.objects.push_back(scene.objects[1]);
-    EXPECT_NE(error_for(scene.objects[1].name).find("2 objects are called"), std::string::npos);
+    EXPECT_NE(error_for(scene.objects[1].name).find("2 objects are named"), std::string::npos);
     EXPECT_EQ(error_for("#1"), "");
     EXPECT_NE(error_for("#99").find("no object"), std::string::npos);
     scene.objects[2].name = "bare";

@@ -23,7 +23,7 @@ BakeJob plain_job() {
     return job;
 }
 
-/// Bakes a file of the cases; nothing where they are not present.
+/// Bakes a file of the cases; returns nothing if it is not present.
 std::optional<Bake> baked_case(const char* file, const BakeJob& job = plain_job()) {
     const fs::path path = test::cases_folder() / file;
     if (!fs::exists(path)) return std::nullopt;
@@ -59,27 +59,27 @@ void expect_object(const Bake& bake, std::string_view name, float expected) {
 
 TEST(Cases, SeamsStayOpenUnderAPartition) {
     const auto bake = baked_case("s01-partition-on-seam.glb");
-    if (!bake) GTEST_SKIP();
+    if (!bake) GTEST_SKIP() << "no " << test::cases_folder();
     expect_object(*bake, "A", 0);
     expect_object(*bake, "B", 100);
 }
 
 TEST(Cases, SeamsStayOpenUnderAThickWall) {
     const auto bake = baked_case("s06-wall-0.1.glb");
-    if (!bake) GTEST_SKIP();
+    if (!bake) GTEST_SKIP() << "no " << test::cases_folder();
     expect_object(*bake, "floor A", 0);
     expect_object(*bake, "floor B", 100);
 }
 
 TEST(Cases, AClosedRoomBesideALitOneIsDark) {
     const auto bake = baked_case("s02-rooms-gap0.glb");
-    if (!bake) GTEST_SKIP();
+    if (!bake) GTEST_SKIP() << "no " << test::cases_folder();
     expect_object(*bake, "dark room", 0);
 }
 
 TEST(Cases, PlainIrradianceIsNeverNegative) {
     const auto bake = baked_case("s04-negative-E.glb");
-    if (!bake) GTEST_SKIP();
+    if (!bake) GTEST_SKIP() << "no " << test::cases_folder();
     for (const LightmapPage& page : bake->pages)
         for (std::size_t k = 0; k < 3; ++k)
             for (const float e : page.planes[bake->channels().irradiance(k)]) EXPECT_GE(e, 0);
@@ -88,7 +88,7 @@ TEST(Cases, PlainIrradianceIsNeverNegative) {
 TEST(Cases, PagesHoldWhatHalfFloatsCannot) {
     const test::TestFolder folder("cases-sun");
     const fs::path path = test::cases_folder() / "d04-sun-100000.glb";
-    if (!fs::exists(path)) GTEST_SKIP();
+    if (!fs::exists(path)) GTEST_SKIP() << "no " << test::cases_folder();
     const auto loaded = load_scene({.path = path.string()});
     ASSERT_TRUE(loaded) << loaded.error().message;
     BakeSession session;

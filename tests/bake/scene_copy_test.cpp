@@ -87,7 +87,7 @@ TEST(SceneCopy, WhatGltfCannotHoldCostsTheCopyNotTheBake) {
     ASSERT_TRUE(read) << read.error().message;
     EXPECT_FALSE(read->manifest.scene);
     ASSERT_EQ(read->manifest.warnings.size(), 1u);
-    EXPECT_NE(read->manifest.warnings[0].find("there is no copy of the scene: "), std::string::npos);
+    EXPECT_NE(read->manifest.warnings[0].find("the scene was not copied: "), std::string::npos);
     EXPECT_FALSE(std::filesystem::exists(folder.path() / "scene.glb"));
 }
 

@@ -3,7 +3,7 @@
 #include <cstdio>
 
 #include "bake_files.h"
-#include "io/write_ktx2.h"
+#include "io/texture/ktx2.h"
 #include "lobelia/storage.h"
 
 namespace lobelia {
@@ -74,10 +74,8 @@ void make_bake(const std::filesystem::path& folder, const std::string& codec) {
 }  // namespace lobelia
 
 int main(int argc, char** argv) {
-    using lobelia::PixelFormat;
     if (argc != 2) return 2;
-    for (int i = 0; i <= static_cast<int>(PixelFormat::bc6h_signed); ++i)
-        lobelia::make_texture(argv[1], static_cast<PixelFormat>(i));
+    for (const lobelia::PixelFormat format : lobelia::pixel_formats()) lobelia::make_texture(argv[1], format);
     lobelia::make_bake(std::filesystem::path(argv[1]) / "sh1", "sh1/moments/convolution");
     lobelia::make_bake(std::filesystem::path(argv[1]) / "sg12", "sg12/nnls/exact");
     return 0;

@@ -1,4 +1,4 @@
-// Coefficient files come back to the bit, and every kind of bad file is refused.
+// Tests that coefficient files read back bit for bit, and that every kind of bad file is refused.
 #include "coefficients/coefficient_file.h"
 
 #include <gtest/gtest.h>

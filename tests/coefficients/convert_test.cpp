@@ -1,4 +1,4 @@
-// Conversions between coefficient files and the conventions of others, as one call.
+// Tests conversions between coefficient files and the conventions of other programs, as one call.
 #include "coefficients/convert.h"
 
 #include <gtest/gtest.h>
@@ -50,7 +50,7 @@ TEST(Convert, MirroringTwiceChangesNothing) {
         ASSERT_TRUE(twice);
         const auto read = coefficients_from_text(twice->text, "c");
         ASSERT_TRUE(read);
-        // Factors of the other convention round once each way.
+        // Factors of the other convention round once in each direction.
         for (std::size_t i = 0; i < file.c.size(); ++i)
             for (const auto channel : {&Rgb::r, &Rgb::g, &Rgb::b})
                 EXPECT_NEAR(read->c[i].*channel, file.c[i].*channel, 1e-5f * std::abs(file.c[i].*channel)) << i;

@@ -1,5 +1,5 @@
-// Counts heap allocations: evaluation, and adding samples, must not allocate once a thread has its working memory. A
-// program of its own, because it replaces operator new.
+// Counts heap allocations: evaluation and the adding of samples must not allocate once a thread has its working memory.
+// A separate program, because it replaces operator new.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -24,7 +24,7 @@ void* counted(std::size_t size, std::size_t alignment) {
     if (memory == nullptr) throw std::bad_alloc();
     return memory;
 }
-/// Not inlined, or compilers see memory of operator new being freed.
+/// Not inlined, because compilers would warn about freeing memory of operator new.
 __attribute__((noinline)) void release(void* memory) { std::free(memory); }
 }  // namespace
 
@@ -40,7 +40,7 @@ void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { rel
 namespace lobelia {
 namespace {
 
-/// Allocations of the second call of `call`: the first may give the thread its working memory.
+/// Returns the allocations of the second call of `call`: the first may allocate the thread's working memory.
 template <class Call>
 std::size_t allocations_of(const Call& call) {
     call();
@@ -56,7 +56,7 @@ std::vector<Rgb> coefficients(const std::shared_ptr<const Basis>& basis) {
     return accumulator.solve();
 }
 
-/// Evaluators that search or build series for each set of coefficients; they are not for evaluation at run time.
+/// Evaluators that search or build series for each set of coefficients; not meant for run-time evaluation.
 bool searches(const std::string& basis, const std::string& evaluator) {
     return evaluator == "dering" || basis.starts_with("sgfit");
 }

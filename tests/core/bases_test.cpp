@@ -69,15 +69,9 @@ TEST(EveryLinearBasis, IsNonNegativeWhereItSaysSo) {
     }
 }
 
-/// The rotation that takes +z to n.
-Rotation frame_of(Vec3 n) {
-    const Vec3 t = normalize(cross(std::abs(n.x) < 0.9f ? Vec3{1, 0, 0} : Vec3{0, 1, 0}, n)), b = cross(n, t);
-    return {Vec3{t.x, b.x, n.x}, Vec3{t.y, b.y, n.y}, Vec3{t.z, b.z, n.z}};
-}
-
 /// Integrates the radiance of the coefficients over the hemisphere about n.
 Rgb numeric_irradiance(const Basis& basis, std::span<const Rgb> c, Vec3 n, const SphereRule& rule) {
-    const Directions directions = test::turned(rule.directions, frame_of(n));
+    const Directions directions = test::turned(rule.directions, test::rotation_to(n));
     Colours radiance(directions.size());
     basis.radiance(c, directions, radiance);
     double sums[3] = {};

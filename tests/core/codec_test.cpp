@@ -41,8 +41,8 @@ const EncoderPtr& encoder_of(const BasisPtr& basis, const std::string& name) {
     return encoder;
 }
 
-/// Whether samples that differ by rounding give coefficients that differ by rounding. Not true where lobes are searched
-/// for.
+/// Returns whether samples that differ by rounding give coefficients that differ by rounding. False for searches of
+/// lobes.
 bool is_continuous(const Basis& basis) { return !basis.fitted() || basis.fitted()->is_continuous(); }
 
 /// Calls `run` for every basis with every compatible encoder.
@@ -98,7 +98,7 @@ double excess(const Basis& basis, const std::vector<Rgb>& a, const std::vector<R
     return std::sqrt(difference / size);
 }
 
-/// Whether all functions are known to be >= 0.
+/// Returns whether all functions are known to be >= 0.
 bool is_non_negative(const Basis& basis) { return basis.linear() && basis.linear()->is_non_negative(); }
 
 /// A sky with its sun: radiances from 0.01 to thousands.

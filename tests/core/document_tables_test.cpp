@@ -1,4 +1,4 @@
-// Holds the tables of docs/*.md to the code: sizes of states, ranges and errors of evaluators, bytes of storages.
+// Tests the tables of docs/*.md against the code: sizes of states, ranges and errors of evaluators, bytes of storages.
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
@@ -25,7 +25,7 @@ std::string trimmed(const std::string& text) {
     return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(' ') - first + 1);
 }
 
-/// The rows of the table whose header line begins with `header`, cell by cell.
+/// Returns the rows, cell by cell, of the table whose header line begins with `header`.
 std::vector<std::vector<std::string>> table(const std::string& document, const std::string& header) {
     std::istringstream lines(text_of(document));
     std::vector<std::vector<std::string>> rows;
@@ -47,7 +47,7 @@ std::vector<std::vector<std::string>> table(const std::string& document, const s
     return rows;
 }
 
-/// Names in backticks; "-nn" stands for the name before it with that ending.
+/// Returns the names in backticks; "-nn" stands for the name before it with that ending.
 std::vector<std::string> names_in(const std::string& cell) {
     static const std::regex code("`([^`]+)`");
     std::vector<std::string> names;
@@ -60,17 +60,17 @@ std::vector<std::string> names_in(const std::string& cell) {
 
 double number(const std::string& text) { return std::strtod(text.c_str(), nullptr); }
 
-/// Whether two numbers agree to the digits that a table gives: within `share` of the larger.
+/// Returns whether two numbers agree to the digits of a table: within the fraction `share` of the larger.
 void expect_same(double stated, double found, double share, const std::string& what) {
     EXPECT_NEAR(stated, found, share * std::max(std::abs(stated), std::abs(found))) << what;
 }
 
-/// A sum such as "6 + 3n + n(n+1)/2 + 147".
+/// Evaluates a sum such as "6 + 3n + n(n+1)/2 + 147".
 std::size_t evaluated(const std::string& formula, std::size_t n) {
     std::istringstream terms(formula);
     std::size_t sum = 0;
     for (std::string term; std::getline(terms, term, '+');) {
-        // n(n+1)/2 is cut in two at its own +.
+        // n(n+1)/2 is split at its own +.
         if (trimmed(term) == "n(n") {
             std::getline(terms, term, '+');
             EXPECT_EQ(trimmed(term), "1)/2") << formula;

@@ -10,6 +10,8 @@
 #include <sstream>
 #include <vector>
 
+#include "folders.h"
+
 namespace lobelia {
 namespace {
 
@@ -18,15 +20,9 @@ namespace fs = std::filesystem;
 const fs::path k_docs = LOBELIA_DOCS_DIR;
 const fs::path k_root = k_docs.parent_path();
 
-std::string file_text(const fs::path& path) {
-    std::ostringstream text;
-    text << std::ifstream(path).rdbuf();
-    return text.str();
-}
-
 /// Returns the lines of a Markdown file outside of fenced code blocks.
 std::vector<std::string> prose_of(const fs::path& path) {
-    std::istringstream text(file_text(path));
+    std::istringstream text(test::contents(path));
     std::vector<std::string> lines;
     bool fenced = false;
     for (std::string line; std::getline(text, line);) {
@@ -59,19 +55,19 @@ std::vector<std::string> inline_code(const std::string& line) {
     return matches(line, code);
 }
 
-/// Whether inline code names a file or a folder from the root, such as "src/io/" and "src/trace/rays.*".
+/// Returns whether inline code names a file or a folder from the root, such as "src/io/" and "src/trace/rays.*".
 bool is_path(const std::string& code) {
     static const std::regex path(R"((src|include|docs|examples|tests|bench|fuzz|tools|setup|cmake|python)/[\w./*-]*)");
     return std::regex_match(code, path);
 }
 
-/// Whether inline code is the name of a source file, with or without folders.
+/// Returns whether inline code is the name of a source file, with or without folders.
 bool is_source(const std::string& code) {
     static const std::regex source(R"([\w./-]+\.(h|cpp|mjs|py|cmake|\*))");
     return std::regex_match(code, source);
 }
 
-/// Whether a path from the root exists; a last component "name.*" stands for any extension.
+/// Returns whether a path from the root exists; a last component "name.*" stands for any extension.
 bool exists_in_tree(const std::string& path) {
     if (!path.ends_with(".*")) return fs::exists(k_root / path);
     const fs::path stem = fs::path(path.substr(0, path.size() - 2));

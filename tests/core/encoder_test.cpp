@@ -16,7 +16,7 @@ namespace {
 using BasisPtr = std::shared_ptr<const LinearBasis>;
 using EncoderPtr = std::shared_ptr<const Encoder>;
 
-BasisPtr basis_of(const char* name) { return as_linear(make_basis(name).value()); }
+BasisPtr linear_basis(const char* name) { return as_linear(make_basis(name).value()); }
 
 std::vector<Rgb> encode(const EncoderPtr& encoder, SampleView samples) {
     Accumulator accumulator(encoder);
@@ -39,7 +39,7 @@ Samples smooth(Domain domain, std::size_t count) { return test::samples_of(domai
 TEST(LeastSquares, SampledGramEqualsQrOfTheDesignMatrix) {
     const Image sky = test::small_sky();
     for (const char* name : {"sg12", "sg12h", "sg5h", "sg24", "sh1", "sh2", "sh4", "sh8"}) {
-        const BasisPtr basis = basis_of(name);
+        const BasisPtr basis = linear_basis(name);
         for (const Samples& samples : {texel_samples(sky, basis->domain()), smooth(basis->domain(), 5000)}) {
             const auto expected = least_squares_by_qr(*basis, samples);
             EXPECT_LE(test::distance(encode("least-squares", basis, samples), expected), 1e-4 * test::norm(expected))
@@ -50,7 +50,7 @@ TEST(LeastSquares, SampledGramEqualsQrOfTheDesignMatrix) {
 
 TEST(LeastSquares, SampledGramEqualsQrOnEnnis) {
     SKIP_WITHOUT_ENNIS();
-    const BasisPtr basis = basis_of("sg12");
+    const BasisPtr basis = linear_basis("sg12");
     const Samples samples = texel_samples(test::ennis());
     const auto expected = least_squares_by_qr(*basis, samples);
     EXPECT_LE(test::distance(encode("least-squares", basis, samples), expected), 1e-4 * test::norm(expected));
@@ -58,7 +58,7 @@ TEST(LeastSquares, SampledGramEqualsQrOnEnnis) {
 
 TEST(LeastSquares, RecoversWhatIsInTheSpan) {
     for (const char* name : {"sg12", "sg12h", "sh3"}) {
-        const BasisPtr basis = basis_of(name);
+        const BasisPtr basis = linear_basis(name);
         std::vector<Rgb> truth(basis->size());
         for (std::size_t i = 0; i < truth.size(); ++i) truth[i] = {1 + static_cast<float>(i), 0.5f, -2};
         const Directions directions = test::random_directions(basis->domain(), 2000, 3);
@@ -77,7 +77,7 @@ TEST(LeastSquares, RecoversWhatIsInTheSpan) {
 
 TEST(Moments, AnalyticGramConvergesToLeastSquares) {
     for (const char* name : {"sg12", "sg12h", "sh3"}) {
-        const BasisPtr basis = basis_of(name);
+        const BasisPtr basis = linear_basis(name);
         double previous = 1;
         for (const std::size_t count : {256, 1024, 4096, 16384}) {
             const Samples samples = smooth(basis->domain(), count);
@@ -92,7 +92,7 @@ TEST(Moments, AnalyticGramConvergesToLeastSquares) {
 
 TEST(MatrixGain, ApproachesLeastSquares) {
     for (const char* name : {"sg12", "sg12h", "sh3"}) {
-        const BasisPtr basis = basis_of(name);
+        const BasisPtr basis = linear_basis(name);
         double previous = 1;
         for (const std::size_t count : {256, 1024, 4096, 16384}) {
             const Samples samples = smooth(basis->domain(), count);
@@ -109,7 +109,7 @@ TEST(MatrixGain, ApproachesLeastSquares) {
 TEST(Regularised, IsFiniteAndNoWorseThanItsNeighboursFromTheFirstSample) {
     // Compare it with the sampled and with the exact Gram matrix alone, averaged over 64 seeds.
     for (const char* name : {"sg12", "sg12h"}) {
-        const BasisPtr basis = basis_of(name);
+        const BasisPtr basis = linear_basis(name);
         const auto limit = encode("least-squares", basis, smooth(basis->domain(), 16384));
         std::map<std::string, double> total;
         for (std::size_t count = 1; count <= 16; ++count) {
@@ -244,7 +244,7 @@ TEST(NonNegativeLeastSquares, OfNothingToGainIsZero) {
 }
 
 TEST(NonNegativeLeastSquares, IsLeastSquaresWhereThatIsNonNegative) {
-    const BasisPtr basis = basis_of("sg12");
+    const BasisPtr basis = linear_basis("sg12");
     const Samples bright = test::samples_of(Domain::sphere, 4096, [](Vec3 d) { return Rgb{3 + d.x, 2, 3 + d.y}; });
     const auto expected = encode("least-squares", basis, bright);
     for (const Rgb& v : expected) ASSERT_GT(std::min({v.r, v.g, v.b}), 0);
@@ -268,7 +268,7 @@ double irradiance_error(const LinearBasis& basis, const std::vector<Rgb>& c, Sam
 TEST(JointNorm, OfWeightZeroIsTheRegularisedForm) {
     for (const char* name : {"sg12", "sg12h", "sh2"})
         for (const std::size_t count : {5, 100, 4096}) {
-            const BasisPtr basis = basis_of(name);
+            const BasisPtr basis = linear_basis(name);
             const Samples samples = smooth(basis->domain(), count);
             const auto expected = encode("regularised", basis, samples);
             const auto joint =
@@ -278,7 +278,7 @@ TEST(JointNorm, OfWeightZeroIsTheRegularisedForm) {
 }
 
 TEST(JointNorm, GivesUpRadianceForIrradianceAsItsWeightGrows) {
-    const BasisPtr basis = basis_of("sg12");
+    const BasisPtr basis = linear_basis("sg12");
     const Samples samples = texel_samples(test::small_sky());
     const auto limit = encode("least-squares", basis, samples);
     for (const auto solver : {MomentSolver::joint, MomentSolver::joint_non_negative}) {
@@ -298,7 +298,7 @@ TEST(JointNorm, GivesUpRadianceForIrradianceAsItsWeightGrows) {
 
 TEST(Progressive, EveryPublishedChoiceConverges) {
     using Denominator = ProgressiveOptions::Denominator;
-    const BasisPtr basis = basis_of("sg12");
+    const BasisPtr basis = linear_basis("sg12");
     const auto limit = encode("least-squares", basis, smooth(Domain::sphere, 16384));
     std::map<std::string, ProgressiveOptions> choices;
     choices["clamped"] = {};
@@ -326,7 +326,7 @@ TEST(Progressive, EveryPublishedChoiceConverges) {
 
 TEST(Progressive, FirstSampleOfAnExactDenominatorIsItsFormula) {
     // b_i = v w_i / S_i, S_i the mean of B_i^2: (1 - e^(-4 lambda)) / (4 lambda).
-    const BasisPtr basis = basis_of("sg12");
+    const BasisPtr basis = linear_basis("sg12");
     ProgressiveOptions options;
     options.denominator = ProgressiveOptions::Denominator::exact;
     Samples one(1);
@@ -340,7 +340,7 @@ TEST(Progressive, FirstSampleOfAnExactDenominatorIsItsFormula) {
 }
 
 TEST(RunningAverage, IsItsFormula) {
-    const BasisPtr basis = basis_of("sg5h");
+    const BasisPtr basis = linear_basis("sg5h");
     const Samples samples = smooth(Domain::hemisphere, 50);
     std::vector<double> mu(5), sum(5);
     std::vector<float> rows(5 * k_block_size);
@@ -363,7 +363,7 @@ TEST(RunningAverage, IsItsFormula) {
 /// Mean over seeds of the excess error, against each encoder's own limit, after the first `count` shuffled texels.
 class EnnisConvergence {
   public:
-    explicit EnnisConvergence(const char* basis) : basis_(basis_of(basis)) {
+    explicit EnnisConvergence(const char* basis) : basis_(linear_basis(basis)) {
         for (std::uint32_t seed = 0; seed < 32; ++seed)
             orders_.push_back(shuffled_texel_samples(test::ennis(), basis_->domain(), seed));
     }
@@ -437,7 +437,7 @@ TEST(EnnisFigures, AreThoseOfTheReference) {
             rms(L, view.radiance(), [&](std::size_t i) { return double{view.solid_angles()[i]}; }),
             rms(E, reference, [&](std::size_t i) { return grid.solid_angle(i / grid.width); }) / k_pi / L_mean};
     };
-    const BasisPtr sg12 = basis_of("sg12");
+    const BasisPtr sg12 = linear_basis("sg12");
     const auto joint = [&](MomentSolver solver, double weight) {
         return measure(sg12, make_moment_encoder(sg12, solver, {.irradiance_weight = weight}));
     };
@@ -453,7 +453,7 @@ TEST(EnnisFigures, AreThoseOfTheReference) {
     EXPECT_NEAR(joint(MomentSolver::joint_non_negative, 1).irradiance, .251, 5e-4);
     const std::map<const char*, Figures> harmonics = {{"sh1", {0, .385}}, {"sh2", {5.407, .0743}}, {"sh4", {0, .0223}}};
     for (const auto& [name, printed] : harmonics) {
-        const BasisPtr basis = basis_of(name);
+        const BasisPtr basis = linear_basis(name);
         const Figures found = measure(basis, make_encoder("projection", basis).value());
         if (printed.radiance > 0) {
             EXPECT_NEAR(found.radiance, printed.radiance, 5e-4) << name;

@@ -230,14 +230,6 @@ TEST(Gaussian, MeanCosineEqualsQuadratureAndRoundTrips) {
         EXPECT_NEAR(gaussian::mean_cosine(gaussian::sharpness_from_mean_cosine(r)), r, 1e-12);
 }
 
-TEST(Gaussian, SharpnessFromFalloffFallsThere) {
-    for (const double value_there : {0.01, 0.5, 0.99})
-        for (const double cosine : {-1.0, 0.0, 0.5, 0.999}) {
-            const double s = gaussian::sharpness_from_falloff(value_there, cosine);
-            EXPECT_NEAR(std::exp(s * (cosine - 1)), value_there, 1e-14);
-        }
-}
-
 TEST(GaussianIrradiance, SeriesEqualsOneDimensionalQuadrature) {
     for (const double s : k_sharpness)
         for (double c = -1; c <= 1.0001; c += 0.05) {

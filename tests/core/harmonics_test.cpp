@@ -87,18 +87,6 @@ TEST(ClampedCosine, IsThePrintedListAndTheNumericIntegral) {
     }
 }
 
-std::vector<Rgb> random_coefficients(std::size_t degree, std::uint32_t seed) {
-    std::mt19937 generator(seed);
-    const auto value = [&] { return static_cast<float>(generator()) * 0x1p-31f - 1; };
-    std::vector<Rgb> c(harmonics::coefficient_count(degree));
-    for (Rgb& v : c) {
-        v.r = value();
-        v.g = value();
-        v.b = value();
-    }
-    return c;
-}
-
 const std::vector<Rotation>& rotations() {
     static const std::vector<Rotation> list = {test::some_rotation(),
                                                test::about_z(0.7),
@@ -112,7 +100,7 @@ const std::vector<Rotation>& rotations() {
 TEST(HarmonicRotation, RotatedFunctionIsTheFunctionElsewhere) {
     for (std::size_t degree = 0; degree <= 8; ++degree)
         for (const Rotation& r : rotations()) {
-            const auto c = random_coefficients(degree, 5);
+            const auto c = test::random_colours(harmonics::coefficient_count(degree), 5);
             const auto turned = harmonics::rotated(r, c);
             const harmonics::Harmonics basis(degree);
             const Directions directions = test::random_directions(Domain::sphere, 100, 4);
@@ -139,7 +127,7 @@ std::vector<Rgb> rotated_by_matrices(const Rotation& r, const std::vector<Rgb>& 
 TEST(HarmonicRotation, SpecialAndGeneralFormsAgree) {
     for (const Rotation& r : rotations())
         for (std::size_t degree = 0; degree <= 4; ++degree) {
-            const auto c = random_coefficients(degree, 6);
+            const auto c = test::random_colours(harmonics::coefficient_count(degree), 6);
             EXPECT_LE(test::distance(harmonics::rotated(r, c), rotated_by_matrices(r, c)), 1e-6 * test::norm(c))
                 << degree;
         }
@@ -168,7 +156,7 @@ TEST(HarmonicRotation, CompositionIsOneRotation) {
         ab[i] = {row.x * b[0].x + row.y * b[1].x + row.z * b[2].x, row.x * b[0].y + row.y * b[1].y + row.z * b[2].y,
                  row.x * b[0].z + row.y * b[1].z + row.z * b[2].z};
     }
-    const auto c = random_coefficients(8, 7);
+    const auto c = test::random_colours(harmonics::coefficient_count(8), 7);
     EXPECT_LE(test::distance(harmonics::rotated(ab, c), harmonics::rotated(a, harmonics::rotated(b, c))),
               3e-6 * test::norm(c));
     EXPECT_GE(test::distance(harmonics::rotated(ab, c), harmonics::rotated(b, harmonics::rotated(a, c))),
@@ -176,7 +164,7 @@ TEST(HarmonicRotation, CompositionIsOneRotation) {
 }
 
 TEST(HarmonicRotation, KeepsTheNormOfEachBand) {
-    const auto c = random_coefficients(8, 8);
+    const auto c = test::random_colours(harmonics::coefficient_count(8), 8);
     const auto turned = harmonics::rotated(test::some_rotation(), c);
     for (std::size_t l = 0; l <= 8; ++l) {
         const auto band = [&](const std::vector<Rgb>& v) {

@@ -176,18 +176,11 @@ TEST(SgIrradiance, NamesRoundTripAndAccuracyIsStated) {
     EXPECT_FALSE(sg_irradiance_from_name("hil"));
 }
 
-/// A rotation that takes +z to `n`.
-Rotation frame_of(Vec3 n) {
-    const Vec3 other = std::abs(n.x) < 0.6f ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
-    const Vec3 t = normalize(cross(other, n)), b = cross(n, t);
-    return {Vec3{t.x, b.x, n.x}, Vec3{t.y, b.y, n.y}, Vec3{t.z, b.z, n.z}};
-}
-
 /// Irradiance of each basis function at `n`, by a rule over the hemisphere about n.
 std::vector<double> numeric_irradiance(const FunctionSet& basis, Vec3 n, const SphereRule& rule) {
     std::vector<double> result(basis.size());
     std::vector<float> rows(basis.size() * k_block_size);
-    const Directions directions = test::turned(rule.directions, frame_of(n));
+    const Directions directions = test::turned(rule.directions, test::rotation_to(n));
     for_each_part(directions.view(), k_block_size, [&](DirectionView block, std::size_t begin) {
         basis.values(block, rows.data());
         for (std::size_t i = 0; i < basis.size(); ++i)

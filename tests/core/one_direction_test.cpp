@@ -1,5 +1,5 @@
-// Evaluation at one direction, at places with coefficients of their own, from views of the caller's memory and from
-// packed textures: all must agree with the plain batch.
+// Tests that evaluation at one direction, at places with their own coefficients, from views of the caller's memory and
+// from packed textures agrees with the batch.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -20,7 +20,7 @@ std::vector<std::string> tested_bases() {
     return names;
 }
 
-/// Coefficients as an encoder gives them for the sky.
+/// Returns coefficients that an encoder computes for the sky.
 std::vector<Rgb> coefficients(const std::shared_ptr<const Basis>& basis) {
     Accumulator accumulator(make_encoder(encoder_names(*basis).front(), basis).value());
     accumulator.add(directed_samples(sky({64, 32}), test::random_directions(basis->domain(), 500, 3), basis->domain()));
@@ -47,7 +47,7 @@ TEST(OneDirection, EqualsTheBatch) {
         const Directions directions = test::random_directions(Domain::sphere, count, 5);
         Colours batch(count);
         basis->radiance(c, directions, batch);
-        // Rounding only: both forms add up the same products, in another order.
+        // Allow for rounding: both forms sum the same products, in another order.
         const float tolerance = 3e-6f * largest(c) * static_cast<float>(std::sqrt(c.size()));
         for (std::size_t j = 0; j < count; ++j)
             expect_near(basis->radiance_at(c, direction_at(directions, j)), colour_at(batch, j), tolerance, name);
@@ -99,7 +99,7 @@ TEST(OneDirection, CodecsClampAsTheyDoInBatches) {
 }
 
 TEST(OwnCoefficients, EqualEachPlaceAlone) {
-    // More than a block, and not a whole number of lanes.
+    // Use more than a block, and not a whole number of lanes.
     constexpr std::size_t count = 2 * k_block_size + 19;
     for (const char* name : {"sh1/moments/geomerics", "sh2/moments/convolution", "sg12/moments/hill",
                              "sg12h/moments/exact", "zh3/moments/convolution", "ambient-cube/moments/squares"}) {
@@ -127,7 +127,7 @@ TEST(OwnCoefficients, EqualEachPlaceAlone) {
 }
 
 TEST(Views, OfTheCallersArraysAreNotTouchedBeyondTheirEnd) {
-    // Arrays of exactly `count` floats, with sentinels that sums must not meet and stores must not change.
+    // Use arrays of exactly `count` floats, with sentinels that sums must not include and stores must not change.
     for (const std::size_t count : {1u, 3u, 15u, 16u, 17u, 300u}) {
         const Samples samples =
             directed_samples(sky({64, 32}), test::random_directions(Domain::sphere, count, 3), Domain::sphere);
@@ -179,7 +179,7 @@ TEST(TextureSampler, GivesBackWhatUnpackGivesAtTexelCentres) {
                MutableCoefficientPlanes(width, height, std::span<std::vector<float>>(back), coefficients));
         const auto sampler = TextureSampler::make(layout, packed);
         ASSERT_TRUE(sampler) << storage.name;
-        // Sub-sampled textures are blended here, where unpack() takes the nearest texel.
+        // The sampler blends sub-sampled textures, but unpack() uses the nearest texel.
         const bool blended = std::any_of(layout.textures.begin(), layout.textures.end(),
                                          [](const auto& texture) { return texture.subsampling > 1; });
         for (std::size_t j = 0; j < width * height && !blended; ++j) {
@@ -194,7 +194,7 @@ TEST(TextureSampler, GivesBackWhatUnpackGivesAtTexelCentres) {
 }
 
 TEST(TextureSampler, BlendsLinearlyAndClampsAtTheEdges) {
-    // A plane of constant slope is kept by every bilinear lookup, chroma of 2 x 2 texels included.
+    // Bilinear lookups preserve a plane of constant slope, including chroma of 2 x 2 texels.
     constexpr std::size_t width = 16, height = 8;
     const CoefficientTraits traits{1, true, true, {1.0f}};
     std::vector<std::vector<float>> in(3, std::vector<float>(width * height));

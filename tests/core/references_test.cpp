@@ -7,14 +7,10 @@
 #include <regex>
 #include <sstream>
 
+#include "folders.h"
+
 namespace lobelia {
 namespace {
-
-std::string file_text(const std::filesystem::path& path) {
-    std::ostringstream text;
-    text << std::ifstream(path).rdbuf();
-    return text.str();
-}
 
 /// The comment that a file opens with, as one line.
 std::string opening_comment(const std::filesystem::path& path) {
@@ -37,7 +33,7 @@ std::vector<std::string> entries_of(const std::string& bibliography) {
 
 TEST(References, EveryPaperThatAFileNamesHasAnEntry) {
     const std::filesystem::path docs = LOBELIA_DOCS_DIR;
-    const auto entries = entries_of(file_text(docs / "references.bib"));
+    const auto entries = entries_of(test::contents(docs / "references.bib"));
     ASSERT_GT(entries.size(), 50u);
     // "Golub and Pereyra 1973", "Wang et al. 2009", "Sloan 2008".
     const std::regex paper(R"(([A-Z][A-Za-z'-]+)( et al\.| and (van )?[A-Z][a-z]+)? ((19|20)[0-9][0-9])\b)");

@@ -195,19 +195,11 @@ TEST(ShConventions, UnityShaderConstants) {
 
 // ---- Round trips
 
-std::vector<Rgb> random_coefficients(std::size_t count, std::uint32_t seed) {
-    std::mt19937 generator(seed);
-    const auto uniform = [&] { return static_cast<float>(generator()) * 0x1p-31f - 1; };
-    std::vector<Rgb> c(count);
-    for (Rgb& v : c) v = {uniform(), uniform(), uniform()};
-    return c;
-}
-
 TEST(ShConventions, RoundTripThroughFiles) {
     for (const ShConvention& target : sh_conventions()) {
         SCOPED_TRACE(target.name);
         for (const std::size_t count : {4u, 9u, 36u}) {
-            const auto ours = random_coefficients(count, 1);
+            const auto ours = test::random_colours(count, 1);
             const auto theirs = exported(target, ours);
             for (const int indent : {-1, 2}) {
                 const auto read = convention_from_text(target, to_json(target, theirs).dump(indent), "f.json");
@@ -224,7 +216,7 @@ TEST(ShConventions, RoundTripThroughFiles) {
 
 TEST(ShConventions, OtherFormsOfFilesAreRead) {
     // Unity's shader constants alone.
-    const auto ours = random_coefficients(9, 2);
+    const auto ours = test::random_colours(9, 2);
     json constants = to_json(convention("unity"), exported(convention("unity"), ours));
     constants.erase("SphericalHarmonicsL2");
     const auto unity_back = convention_from_text(convention("unity"), constants.dump(), "u.json");
@@ -256,7 +248,7 @@ TEST(ShConventions, OtherFormsOfFilesAreRead) {
 }
 
 TEST(ShConventions, MirroredWorlds) {
-    const auto c = random_coefficients(25, 3);
+    const auto c = test::random_colours(25, 3);
     const Directions directions = test::random_directions(Domain::sphere, 20, 4);
     const auto radiance = [](std::span<const Rgb> of, Vec3 d) {
         const auto Y = harmonics::values(4, d.x, d.y, d.z);
@@ -292,7 +284,7 @@ TEST(ShConventions, BadFilesNameTheFileAndThePlace) {
         expect_refused(name, "[]", "not a JSON object");
         expect_refused(name, "{}", "");
         expect_refused(name, R"({"convention": "another"})", "another");
-        const json good = to_json(target, exported(target, random_coefficients(9, 5)));
+        const json good = to_json(target, exported(target, test::random_colours(9, 5)));
         for (const auto& [key, value] : good.items()) {
             if (key == "convention" || (target.form == ShConvention::Form::unity && key != "SphericalHarmonicsL2"))
                 continue;

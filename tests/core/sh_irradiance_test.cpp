@@ -100,18 +100,10 @@ double least_by_brute_force(std::size_t degree, std::span<const Rgb> c) {
     return test::least(values);
 }
 
-std::vector<Rgb> random_coefficients(std::size_t degree, std::uint32_t seed) {
-    std::mt19937 generator(seed);
-    const auto uniform = [&] { return static_cast<float>(generator()) * 0x1p-32f - 0.5f; };
-    std::vector<Rgb> c(harmonics::coefficient_count(degree));
-    for (Rgb& v : c) v = {uniform(), uniform(), uniform()};
-    return c;
-}
-
 TEST(LeastValue, EqualsBruteForce) {
     for (std::size_t degree = 1; degree <= 6; ++degree)
         for (std::uint32_t seed = 0; seed < 10; ++seed) {
-            const auto c = random_coefficients(degree, seed);
+            const auto c = test::random_colours(harmonics::coefficient_count(degree), seed);
             const double found = least_value(degree, c), expected = least_by_brute_force(degree, c);
             // The dense set misses the minimum by its spacing.
             EXPECT_LE(found, expected + 1e-5) << degree << " " << seed;
@@ -202,7 +194,7 @@ TEST(ShModels, BlackAndLightlessAreFinite) {
 TEST(HarmonicSums, EqualTheirTables) {
     for (std::size_t degree = 0; degree <= 8; ++degree) {
         const harmonics::Harmonics set(degree);
-        const auto c = random_coefficients(degree, 5);
+        const auto c = test::random_colours(harmonics::coefficient_count(degree), 5);
         for (const std::size_t size : {1, 15, 16, 17, 300}) {
             const Directions directions = test::random_directions(Domain::sphere, size, 2);
             Colours sum(size), table(size);

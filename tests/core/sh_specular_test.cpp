@@ -30,7 +30,7 @@ std::vector<Rgb> power_lobe(std::size_t degree, Vec3 axis) {
 }
 
 /// RMS difference to the reference (many rays), over the RMS of the reference.
-double gloss_error(std::string_view name, std::size_t degree, std::span<const Rgb> c, const PointsAtAngle& points) {
+double specular_error(std::string_view name, std::size_t degree, std::span<const Rgb> c, const PointsAtAngle& points) {
     const auto basis = make_basis("sh" + std::to_string(degree)).value();
     return relative_specular_error(*make_specular(name, basis).value(), *make_sampled_specular(basis, 1024), c, points);
 }
@@ -40,8 +40,9 @@ const Vec3 k_power_axis = normalize(Vec3{0.4f, -0.7f, 0.5f});
 TEST(ShSpecular, ConvolutionIsExactToDegreeOne) {
     for (float alpha : {0.1f, 0.4f, 0.9f})
         for (float cosine : {0.2f, 0.6f, 1.0f})
-            EXPECT_LT(gloss_error("sh-convolution", 1, power_lobe(1, k_power_axis), PointsAtAngle(40, cosine, alpha)),
-                      3e-3)
+            EXPECT_LT(
+                specular_error("sh-convolution", 1, power_lobe(1, k_power_axis), PointsAtAngle(40, cosine, alpha)),
+                3e-3)
                 << alpha << " " << cosine;
 }
 
@@ -49,13 +50,13 @@ TEST(ShSpecular, ConvolutionIsExactAlongTheNormal) {
     for (float alpha : {0.1f, 0.4f, 0.9f})
         for (std::size_t degree : {2u, 4u, 8u})
             EXPECT_LT(
-                gloss_error("sh-convolution", degree, power_lobe(degree, k_power_axis), PointsAtAngle(40, 1, alpha)),
+                specular_error("sh-convolution", degree, power_lobe(degree, k_power_axis), PointsAtAngle(40, 1, alpha)),
                 6e-3)
                 << alpha << " " << degree;
 }
 
 TEST(ShSpecular, PrefilteredIsExactAlongTheNormal) {
-    EXPECT_LT(gloss_error("sh-prefiltered", 4, power_lobe(4, k_power_axis), PointsAtAngle(40, 1, 0.4f)), 6e-3);
+    EXPECT_LT(specular_error("sh-prefiltered", 4, power_lobe(4, k_power_axis), PointsAtAngle(40, 1, 0.4f)), 6e-3);
 }
 
 TEST(ShSpecular, MirrorReflectsTheRadiance) {
@@ -110,8 +111,8 @@ TEST(ShSpecular, WithinStatedErrors) {
             for (std::size_t degree : {2u, 4u, 8u}) {
                 const auto c = power_lobe(degree, k_power_axis);
                 const PointsAtAngle points(100, cosine, alpha);
-                convolution = std::max(convolution, gloss_error("sh-convolution", degree, c, points));
-                prefiltered = std::max(prefiltered, gloss_error("sh-prefiltered", degree, c, points));
+                convolution = std::max(convolution, specular_error("sh-convolution", degree, c, points));
+                prefiltered = std::max(prefiltered, specular_error("sh-prefiltered", degree, c, points));
             }
     EXPECT_LT(convolution, 0.13);
     EXPECT_LT(prefiltered, 0.7);

@@ -18,7 +18,7 @@ using Layout = ExrSpec::Layout;
 
 std::span<const std::byte> bytes_of(const std::string& text) { return std::as_bytes(std::span(text)); }
 
-std::string message_of(const std::string& bytes, const ReadChannelsOptions& options = {}) {
+std::string planes_error(const std::string& bytes, const ReadChannelsOptions& options = {}) {
     const auto read = read_exr_channels(bytes_of(bytes), "planes.exr", options);
     return read ? "" : read.error().message;
 }
@@ -136,21 +136,21 @@ TEST(ExrChannels, PlanesCoverTheDisplayWindow) {
 
 TEST(ExrChannels, TruncatedAtEveryByteIsAnError) {
     const std::string whole = encoded(ChannelPlanes(9, 20, 3));
-    ASSERT_EQ(message_of(whole), "");
+    ASSERT_EQ(planes_error(whole), "");
     for (std::size_t length = 0; length < whole.size(); ++length)
-        EXPECT_EQ(message_of(whole.substr(0, length)).rfind("planes.exr: ", 0), 0u) << length;
+        EXPECT_EQ(planes_error(whole.substr(0, length)).rfind("planes.exr: ", 0), 0u) << length;
 }
 
 TEST(ExrChannels, UnsupportedFilesAreRefused) {
     const std::string bytes = encoded(ChannelPlanes(16, 8, 5));
-    EXPECT_NE(message_of(bytes, {.wanted = {"c1.R", "c9.R"}}).find("no channel c9.R"), std::string::npos);
-    EXPECT_NE(message_of(bytes, {.most_pixels = 127}).find("at most 127"), std::string::npos);
-    EXPECT_NE(message_of(bytes, {.most_channels = 4}).find("more than 4 channels"), std::string::npos);
-    EXPECT_NE(message_of(bytes, {.most_values = 639}).find("more than 639 values"), std::string::npos);
-    EXPECT_EQ(message_of(bytes, {.most_values = 640}), "");
-    EXPECT_NE(message_of(make_deep_exr()).find("deep"), std::string::npos);
-    EXPECT_NE(message_of(make_luminance_chroma_exr(test_image(16, 8))).find("sampled at 1/2"), std::string::npos);
-    EXPECT_NE(message_of("no image").find("planes.exr: "), std::string::npos);
+    EXPECT_NE(planes_error(bytes, {.wanted = {"c1.R", "c9.R"}}).find("no channel c9.R"), std::string::npos);
+    EXPECT_NE(planes_error(bytes, {.most_pixels = 127}).find("at most 127"), std::string::npos);
+    EXPECT_NE(planes_error(bytes, {.most_channels = 4}).find("more than 4 channels"), std::string::npos);
+    EXPECT_NE(planes_error(bytes, {.most_values = 639}).find("more than 639 values"), std::string::npos);
+    EXPECT_EQ(planes_error(bytes, {.most_values = 640}), "");
+    EXPECT_NE(planes_error(make_deep_exr()).find("deep"), std::string::npos);
+    EXPECT_NE(planes_error(make_luminance_chroma_exr(test_image(16, 8))).find("sampled at 1/2"), std::string::npos);
+    EXPECT_NE(planes_error("no image").find("planes.exr: "), std::string::npos);
     for (const char* path : {"/dev/zero", "/no/such/file.exr", "/"}) {
         const auto read = read_exr_channels(std::filesystem::path(path));
         ASSERT_FALSE(read);
@@ -175,7 +175,7 @@ TEST(ExrChannels, FullDiskLeavesTheOldFile) {
     const test::TestFolder folder("exr-full");
     const auto path = folder.path() / "a.exr";
     test::overwrite(path, "old");
-    // At the beginning, in the middle, and where only the table of chunks does not fit any more.
+    // Truncate at the beginning, in the middle, and where only the table of chunks does not fit.
     const ChannelPlanes planes(64, 64, 4);
     const std::size_t size = encoded(planes).size();
     for (const std::size_t most : {std::size_t{10}, size / 2, size - 4}) {

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <limits>
 
+#include "image_reading.h"
 #include "io/read_image.h"
 #include "io/write_file.h"
 #include "io/write_image.h"
@@ -17,17 +18,13 @@
 namespace lobelia {
 namespace {
 
+using test::message_of;
+using test::warns_of;
+
 using Layout = ExrSpec::Layout;
 
-Result<LoadedImage> read(const std::string& bytes, const ReadOptions& options = {}) {
+Result<LoadedImage> read_exr_bytes(const std::string& bytes, const ReadOptions& options = {}) {
     return read_exr(std::as_bytes(std::span(bytes)), "picture.exr", options);
-}
-
-std::string message_of(const Result<LoadedImage>& result) { return result ? "" : result.error().message; }
-
-bool warns_of(const LoadedImage& loaded, const std::string& word) {
-    return std::any_of(loaded.warnings.begin(), loaded.warnings.end(),
-                       [&](const std::string& w) { return w.find(word) != std::string::npos; });
 }
 
 double largest_difference(const Image& a, const Image& b) {
@@ -51,7 +48,8 @@ TEST(ReadExr, RoundTripOfEveryCompressionTypeAndLayout) {
         for (const Imf::PixelType type : {Imf::HALF, Imf::FLOAT, Imf::UINT}) {
             for (const Layout layout : {Layout::scan_lines, Layout::tiles, Layout::mipmap, Layout::ripmap}) {
                 const auto compression = static_cast<Imf::Compression>(c);
-                const auto loaded = read(make_exr(image, {.layout = layout, .compression = compression, .type = type}));
+                const auto loaded =
+                    read_exr_bytes(make_exr(image, {.layout = layout, .compression = compression, .type = type}));
                 ASSERT_TRUE(loaded) << message_of(loaded);
                 // Whole numbers survive all lossless schemes; the lossy ones keep about 5 bits of this noise.
                 EXPECT_LE(largest_difference(loaded->image, image), is_lossy(compression, type) ? 2 : 0)
@@ -65,7 +63,7 @@ TEST(ReadExr, ZerosOfLossyFilesAreNotNegative) {
     Image image = test_image(40, 20);
     for (std::size_t i = 0; i < image.pixels.size(); i += 3) image.pixels[i] = {};
     for (const Imf::Compression compression : {Imf::B44_COMPRESSION, Imf::B44A_COMPRESSION, Imf::DWAB_COMPRESSION}) {
-        const auto loaded = read(make_exr(image, {.compression = compression}));
+        const auto loaded = read_exr_bytes(make_exr(image, {.compression = compression}));
         EXPECT_TRUE(loaded) << message_of(loaded);
     }
 }
@@ -74,7 +72,7 @@ TEST(ReadExr, DataWindowsAnywhere) {
     const Image image = test_image(20, 10);
     for (const int left : {-1000, -7, 0, 3, 100000}) {
         for (const Layout layout : {Layout::scan_lines, Layout::tiles}) {
-            const auto loaded = read(make_exr(image, {.layout = layout, .left = left, .top = -2 * left}));
+            const auto loaded = read_exr_bytes(make_exr(image, {.layout = layout, .left = left, .top = -2 * left}));
             ASSERT_TRUE(loaded) << message_of(loaded);
             EXPECT_EQ(loaded->image.pixels, image.pixels) << left;
         }
@@ -92,10 +90,11 @@ TEST(ReadExr, TheImageIsTheDisplayWindow) {
                             Window{-5, 4, 9, 13, "are black"}, Window{0, 0, 19, 9, ""}}) {
         for (const Layout layout : {Layout::scan_lines, Layout::tiles})
             for (const std::vector<std::string>& channels : {std::vector<std::string>{"R", "G", "B"}, {"Y"}}) {
-                const auto loaded = read(make_exr(image, {.layout = layout,
-                                                          .channels = channels,
-                                                          .left = 0,
-                                                          .display = std::array{w.left, w.top, w.right, w.bottom}}));
+                const auto loaded =
+                    read_exr_bytes(make_exr(image, {.layout = layout,
+                                                    .channels = channels,
+                                                    .left = 0,
+                                                    .display = std::array{w.left, w.top, w.right, w.bottom}}));
                 ASSERT_TRUE(loaded) << message_of(loaded);
                 ASSERT_EQ(loaded->image.width, static_cast<std::size_t>(w.right - w.left + 1));
                 ASSERT_EQ(loaded->image.height, static_cast<std::size_t>(w.bottom - w.top + 1));
@@ -117,11 +116,11 @@ TEST(ReadExr, TheImageIsTheDisplayWindow) {
 }
 
 TEST(ReadExr, WindowsThatDoNotOverlapAreRefused) {
-    const auto loaded = read(make_exr(test_image(16, 8), {.left = 16, .display = std::array{0, 0, 15, 7}}));
+    const auto loaded = read_exr_bytes(make_exr(test_image(16, 8), {.left = 16, .display = std::array{0, 0, 15, 7}}));
     EXPECT_NE(message_of(loaded).find("outside the display window"), std::string::npos) << message_of(loaded);
     // A display window beyond the limits would be allocated.
     const ReadOptions small{.most_pixels = 1 << 10};
-    EXPECT_FALSE(read(make_exr(test_image(16, 8), {.display = std::array{0, 0, 63, 63}}), small));
+    EXPECT_FALSE(read_exr_bytes(make_exr(test_image(16, 8), {.display = std::array{0, 0, 63, 63}}), small));
 }
 
 /// Radiance that changes slowly with the direction, differently along the axes.
@@ -157,7 +156,7 @@ Image openexr_cube(std::size_t side) {
 TEST(ReadExr, EnvironmentsFollowTheirAttribute) {
     for (const Imf::Envmap layout : {Imf::ENVMAP_LATLONG, Imf::ENVMAP_CUBE}) {
         const Image image = layout == Imf::ENVMAP_CUBE ? openexr_cube(32) : openexr_latitude_longitude(128, 64);
-        const auto loaded = read(make_exr(image, {.type = Imf::FLOAT, .envmap = layout}));
+        const auto loaded = read_exr_bytes(make_exr(image, {.type = Imf::FLOAT, .envmap = layout}));
         ASSERT_TRUE(loaded) << message_of(loaded);
         EXPECT_TRUE(warns_of(*loaded, layout == Imf::ENVMAP_CUBE ? "cube" : "turned by half"));
         EXPECT_FALSE(warns_of(*loaded, "2 : 1"));
@@ -176,7 +175,7 @@ TEST(ReadExr, EnvironmentsFollowTheirAttribute) {
 TEST(ReadExr, ConstantCubeStaysConstant) {
     Image cube(16, 96);
     std::fill(cube.pixels.begin(), cube.pixels.end(), Rgb{1, 2, 4});
-    const auto loaded = read(make_exr(cube, {.envmap = Imf::ENVMAP_CUBE}));
+    const auto loaded = read_exr_bytes(make_exr(cube, {.envmap = Imf::ENVMAP_CUBE}));
     ASSERT_TRUE(loaded) << message_of(loaded);
     for (const Rgb& pixel : loaded->image.pixels) {
         ASSERT_NEAR(pixel.r, 1, 1e-5);
@@ -188,7 +187,7 @@ TEST(ReadExr, OneFaceOfACubeIsASixthOfTheSphere) {
     for (std::size_t face = 0; face < 6; ++face) {
         Image cube(32, 192);
         std::fill_n(cube.pixels.begin() + static_cast<std::ptrdiff_t>(face * 1024), 1024, Rgb{1, 1, 1});
-        const auto loaded = read(make_exr(cube, {.envmap = Imf::ENVMAP_CUBE}));
+        const auto loaded = read_exr_bytes(make_exr(cube, {.envmap = Imf::ENVMAP_CUBE}));
         ASSERT_TRUE(loaded) << message_of(loaded);
         const LatLong grid = lat_long(loaded->image);
         double sum = 0;
@@ -203,15 +202,15 @@ TEST(ReadExr, OneFaceOfACubeIsASixthOfTheSphere) {
 }
 
 TEST(ReadExr, CubesOfOtherShapesAreRefused) {
-    const auto loaded = read(make_exr(test_image(20, 10), {.envmap = Imf::ENVMAP_CUBE}));
+    const auto loaded = read_exr_bytes(make_exr(test_image(20, 10), {.envmap = Imf::ENVMAP_CUBE}));
     EXPECT_NE(message_of(loaded).find("envmap"), std::string::npos) << message_of(loaded);
-    EXPECT_FALSE(read(make_exr(test_image(16, 96), {.envmap = Imf::ENVMAP_CUBE}), {.most_pixels = 2047}));
-    EXPECT_FALSE(read(make_exr(test_image(20, 10), {.envmap = static_cast<Imf::Envmap>(7)})));
+    EXPECT_FALSE(read_exr_bytes(make_exr(test_image(16, 96), {.envmap = Imf::ENVMAP_CUBE}), {.most_pixels = 2047}));
+    EXPECT_FALSE(read_exr_bytes(make_exr(test_image(20, 10), {.envmap = static_cast<Imf::Envmap>(7)})));
 }
 
 TEST(ReadExr, LuminanceIsGrey) {
     const Image image = test_image(16, 8);
-    const auto loaded = read(make_exr(image, {.channels = {"Y"}}));
+    const auto loaded = read_exr_bytes(make_exr(image, {.channels = {"Y"}}));
     ASSERT_TRUE(loaded) << message_of(loaded);
     for (std::size_t i = 0; i < image.pixels.size(); ++i)
         EXPECT_EQ(loaded->image.pixels[i], (Rgb{image.pixels[i].r, image.pixels[i].r, image.pixels[i].r}));
@@ -221,26 +220,26 @@ TEST(ReadExr, LuminanceAndChroma) {
     // Chroma is stored at half rate: a plain colour comes back.
     Image image(16, 8);
     std::fill(image.pixels.begin(), image.pixels.end(), Rgb{4, 2, 1});
-    const auto loaded = read(make_luminance_chroma_exr(image));
+    const auto loaded = read_exr_bytes(make_luminance_chroma_exr(image));
     ASSERT_TRUE(loaded) << message_of(loaded);
     EXPECT_LE(largest_difference(loaded->image, image), 0.02);
 }
 
 TEST(ReadExr, FirstPartWithColourIsRead) {
     const Image image = test_image(16, 8);
-    const auto parts = read(make_multi_part_exr(image, {{"Z"}, {"R", "G", "B", "A"}, {"Y"}}));
+    const auto parts = read_exr_bytes(make_multi_part_exr(image, {{"Z"}, {"R", "G", "B", "A"}, {"Y"}}));
     ASSERT_TRUE(parts) << message_of(parts);
     EXPECT_EQ(parts->image.pixels, image.pixels);
     EXPECT_TRUE(warns_of(*parts, "read part 1 (\"part 1\") of 3"));
     // Layers count only where no part has plain channels.
-    const auto layered = read(make_multi_part_exr(image, {{"left.R", "left.G", "left.B"}, {"Y"}}));
+    const auto layered = read_exr_bytes(make_multi_part_exr(image, {{"left.R", "left.G", "left.B"}, {"Y"}}));
     ASSERT_TRUE(layered) << message_of(layered);
     EXPECT_TRUE(warns_of(*layered, "read part 1"));
 }
 
 TEST(ReadExr, LayersAreTheFallback) {
     const Image image = test_image(16, 8);
-    const auto loaded = read(make_exr(image, {.channels = {"left.R", "left.G", "left.B"}}));
+    const auto loaded = read_exr_bytes(make_exr(image, {.channels = {"left.R", "left.G", "left.B"}}));
     ASSERT_TRUE(loaded) << message_of(loaded);
     EXPECT_EQ(loaded->image.pixels, image.pixels);
     EXPECT_TRUE(warns_of(*loaded, "left.R"));
@@ -248,9 +247,9 @@ TEST(ReadExr, LayersAreTheFallback) {
 
 TEST(ReadExr, UnsupportedFilesAreRefused) {
     const Image image = test_image(16, 8);
-    EXPECT_NE(message_of(read(make_deep_exr())).find("deep"), std::string::npos);
-    EXPECT_NE(message_of(read(make_exr(image, {.channels = {"R", "G"}}))).find("no part"), std::string::npos);
-    EXPECT_NE(message_of(read(make_exr(image), {.most_pixels = 127})).find("at most 127"), std::string::npos);
+    EXPECT_NE(message_of(read_exr_bytes(make_deep_exr())).find("deep"), std::string::npos);
+    EXPECT_NE(message_of(read_exr_bytes(make_exr(image, {.channels = {"R", "G"}}))).find("no part"), std::string::npos);
+    EXPECT_NE(message_of(read_exr_bytes(make_exr(image), {.most_pixels = 127})).find("at most 127"), std::string::npos);
 }
 
 TEST(ReadExr, TruncatedAtEveryByteIsAnError) {
@@ -262,9 +261,9 @@ TEST(ReadExr, TruncatedAtEveryByteIsAnError) {
         for (const Layout layout : {Layout::scan_lines, Layout::tiles})
             files.push_back(make_exr(image, {.layout = layout, .compression = c}));
     for (const std::string& whole : files) {
-        ASSERT_TRUE(read(whole));
+        ASSERT_TRUE(read_exr_bytes(whole));
         for (std::size_t length = 0; length < whole.size(); ++length) {
-            const auto loaded = read(whole.substr(0, length));
+            const auto loaded = read_exr_bytes(whole.substr(0, length));
             ASSERT_FALSE(loaded) << length << " of " << whole.size();
             EXPECT_EQ(message_of(loaded).rfind("picture.exr: ", 0), 0u);
         }
@@ -285,22 +284,24 @@ TEST(ReadExr, HostileHeadersAreRefused) {
     const std::string window = "dataWindow\0box2i\0"s, tiles = "tiles\0tiledesc\0"s, channels = "channels\0chlist\0"s;
     // A size precedes the value: the window's right edge is at 4 + 8.
     for (const std::int32_t edge : {-1, 99999, 1 << 26, std::numeric_limits<std::int32_t>::max()}) {
-        EXPECT_FALSE(read(patched(good, window, 12, edge))) << edge;
-        EXPECT_FALSE(read(patched(good, window, 16, edge))) << edge;
+        EXPECT_FALSE(read_exr_bytes(patched(good, window, 12, edge))) << edge;
+        EXPECT_FALSE(read_exr_bytes(patched(good, window, 16, edge))) << edge;
     }
     const std::string display = "displayWindow\0box2i\0"s;
     for (const std::int32_t edge : {-1, 99999, 1 << 26, std::numeric_limits<std::int32_t>::max()}) {
-        EXPECT_FALSE(read(patched(good, display, 12, edge))) << edge;
-        EXPECT_FALSE(read(patched(good, display, 16, edge))) << edge;
+        EXPECT_FALSE(read_exr_bytes(patched(good, display, 12, edge))) << edge;
+        EXPECT_FALSE(read_exr_bytes(patched(good, display, 16, edge))) << edge;
     }
     for (const std::int32_t size : {0, -1, 1 << 30}) {
-        EXPECT_FALSE(read(patched(good, tiles, 4, size))) << size;
-        EXPECT_FALSE(read(patched(good, tiles, 8, size))) << size;
+        EXPECT_FALSE(read_exr_bytes(patched(good, tiles, 4, size))) << size;
+        EXPECT_FALSE(read_exr_bytes(patched(good, tiles, 8, size))) << size;
     }
-    for (const std::int32_t size : {0, 5, -1, 1 << 30}) EXPECT_FALSE(read(patched(good, window, 0, size))) << size;
+    for (const std::int32_t size : {0, 5, -1, 1 << 30})
+        EXPECT_FALSE(read_exr_bytes(patched(good, window, 0, size))) << size;
     // Sampling of channel B, after its name, type and padding; and an allowed size that the bytes cannot hold.
-    for (const std::int32_t rate : {0, -1, 2}) EXPECT_FALSE(read(patched(good, channels, 4 + 2 + 8, rate))) << rate;
-    const auto large = read(patched(patched(good, window, 12, 16383), window, 16, 16383));
+    for (const std::int32_t rate : {0, -1, 2})
+        EXPECT_FALSE(read_exr_bytes(patched(good, channels, 4 + 2 + 8, rate))) << rate;
+    const auto large = read_exr_bytes(patched(patched(good, window, 12, 16383), window, 16, 16383));
     EXPECT_FALSE(large);
 }
 
@@ -322,12 +323,12 @@ TEST(ReadExr, InvalidRadianceIsCounted) {
     const Result<std::string> bytes = encode_exr(image);
     ASSERT_TRUE(bytes);
 
-    const std::string message = message_of(read(*bytes));
+    const std::string message = message_of(read_exr_bytes(*bytes));
     EXPECT_NE(message.find("1 NaN, 1 infinite (or above 1e15) and 1 negative"), std::string::npos) << message;
     EXPECT_NE(message.find("x = 3, y = 1"), std::string::npos) << message;
     EXPECT_NE(message.find("--sanitize"), std::string::npos) << message;
 
-    const auto loaded = read(*bytes, {.sanitize = true});
+    const auto loaded = read_exr_bytes(*bytes, {.sanitize = true});
     ASSERT_TRUE(loaded);
     EXPECT_EQ(loaded->sanitized.total(), 3u);
     EXPECT_EQ(loaded->image.at(3, 1), (Rgb{0, 0, 0}));

@@ -8,6 +8,7 @@
 #include <functional>
 
 #include "data.h"
+#include "image_reading.h"
 #include "io/read_image.h"
 #include "io/write_file.h"
 #include "io_files.h"
@@ -15,11 +16,14 @@
 namespace lobelia {
 namespace {
 
+using test::message_of;
+using test::warns_of;
+
 using Scheme = HdrSpec::Scheme;
 constexpr std::array k_schemes{Scheme::flat, Scheme::old_rle, Scheme::new_rle};
 constexpr std::array k_axes{"-Y +X", "-Y -X", "+Y +X", "+Y -X", "+X -Y", "+X +Y", "-X -Y", "-X +Y"};
 
-Result<LoadedImage> read(const std::string& bytes, const ReadOptions& options = {}) {
+Result<LoadedImage> read_hdr_bytes(const std::string& bytes, const ReadOptions& options = {}) {
     return read_hdr(std::as_bytes(std::span(bytes)), "picture.hdr", options);
 }
 
@@ -37,20 +41,13 @@ bool holds(const Image& image, const HdrTexels& picture) {
                       [](const Rgb& pixel, const auto& texel) { return pixel == value_of(texel); });
 }
 
-std::string message_of(const Result<LoadedImage>& result) { return result ? "" : result.error().message; }
-
-bool warns_of(const LoadedImage& loaded, const std::string& word) {
-    return std::any_of(loaded.warnings.begin(), loaded.warnings.end(),
-                       [&](const std::string& w) { return w.find(word) != std::string::npos; });
-}
-
 HdrTexels one_texel(HdrTexels::Texel texel) { return {2, 1, {texel, texel}}; }
 
 TEST(ReadHdr, RoundTripOfEverySchemeAndOrientation) {
     const HdrTexels picture = test_texels(40, 20);
     for (const Scheme scheme : k_schemes) {
         for (const char* axes : k_axes) {
-            const auto loaded = read(make_hdr(picture, {scheme, axes, "FORMAT=32-bit_rle_rgbe\n"}));
+            const auto loaded = read_hdr_bytes(make_hdr(picture, {scheme, axes, "FORMAT=32-bit_rle_rgbe\n"}));
             ASSERT_TRUE(loaded) << message_of(loaded);
             EXPECT_TRUE(holds(loaded->image, picture)) << axes << " scheme " << static_cast<int>(scheme);
             EXPECT_TRUE(loaded->warnings.empty());
@@ -63,7 +60,7 @@ TEST(ReadHdr, RoundTripOfEveryWidth) {
         for (const Scheme scheme : k_schemes) {
             if (scheme == Scheme::new_rle && width < 8) continue;
             const HdrTexels picture = test_texels(width, 2);
-            const auto loaded = read(make_hdr(picture, {.scheme = scheme}));
+            const auto loaded = read_hdr_bytes(make_hdr(picture, {.scheme = scheme}));
             ASSERT_TRUE(loaded) << message_of(loaded);
             EXPECT_TRUE(holds(loaded->image, picture)) << width;
         }
@@ -74,7 +71,7 @@ TEST(ReadHdr, LongRunsOfOneColour) {
     // Runs above 255 take two or three instructions of the old scheme; 40000 is beyond what the new one may hold.
     for (const std::size_t width : {256, 257, 511, 512, 8192, 40000}) {
         const HdrTexels picture{width, 1, std::vector<HdrTexels::Texel>(width, {200, 100, 50, 130})};
-        const auto loaded = read(make_hdr(picture, {.scheme = Scheme::old_rle}));
+        const auto loaded = read_hdr_bytes(make_hdr(picture, {.scheme = Scheme::old_rle}));
         ASSERT_TRUE(loaded) << message_of(loaded);
         EXPECT_TRUE(holds(loaded->image, picture)) << width;
     }
@@ -82,7 +79,7 @@ TEST(ReadHdr, LongRunsOfOneColour) {
 
 TEST(ReadHdr, ExposureAndColourCorrectionAreDividedOut) {
     const std::string variables = "EXPOSURE=  2.0\nFORMAT=32-bit_rle_rgbe\nEXPOSURE=4\nCOLORCORR= 1 2 0.5\n";
-    const auto loaded = read(make_hdr(one_texel({128, 128, 128, 129}), {Scheme::flat, "-Y +X", variables}));
+    const auto loaded = read_hdr_bytes(make_hdr(one_texel({128, 128, 128, 129}), {Scheme::flat, "-Y +X", variables}));
     ASSERT_TRUE(loaded) << message_of(loaded);
     EXPECT_EQ(loaded->image.pixels[0], (Rgb{1.0f / 8, 1.0f / 16, 1.0f / 4}));
 }
@@ -90,7 +87,7 @@ TEST(ReadHdr, ExposureAndColourCorrectionAreDividedOut) {
 TEST(ReadHdr, GreyOfXyzeIsGrey) {
     // Radiance's white is equal energy, and its XYZE holds candela per square metre: 128 / 128 / 179 everywhere.
     const auto loaded =
-        read(make_hdr(one_texel({128, 128, 128, 129}), {Scheme::flat, "-Y +X", "FORMAT=32-bit_rle_xyze\n"}));
+        read_hdr_bytes(make_hdr(one_texel({128, 128, 128, 129}), {Scheme::flat, "-Y +X", "FORMAT=32-bit_rle_xyze\n"}));
     ASSERT_TRUE(loaded) << message_of(loaded);
     for (const float component : {loaded->image.pixels[0].r, loaded->image.pixels[0].g, loaded->image.pixels[0].b})
         EXPECT_NEAR(component, 1.0 / 179, 1e-6);
@@ -100,7 +97,7 @@ TEST(ReadHdr, PrimaryOfXyzeIsPure) {
     // Rec. 709's red is x = 0.64, y = 0.33, z = 0.03, and its white is stated; hence no adaptation.
     const std::string variables =
         "FORMAT=32-bit_rle_xyze\nPRIMARIES= .64 .33 .30 .60 .15 .06 .3127 .3290\nEXPOSURE=0.00558659218\n";
-    const auto loaded = read(make_hdr(one_texel({128, 66, 6, 129}), {Scheme::flat, "-Y +X", variables}));
+    const auto loaded = read_hdr_bytes(make_hdr(one_texel({128, 66, 6, 129}), {Scheme::flat, "-Y +X", variables}));
     ASSERT_TRUE(loaded) << message_of(loaded);
     EXPECT_NEAR(loaded->image.pixels[0].g, 0, 1e-5);
     EXPECT_NEAR(loaded->image.pixels[0].b, 0, 1e-5);
@@ -110,7 +107,7 @@ TEST(ReadHdr, PrimaryOfXyzeIsPure) {
 TEST(ReadHdr, OnlyForeignPrimariesWarn) {
     const auto warns = [](const std::string& primaries) {
         const std::string variables = "PRIMARIES=" + primaries + "\nFORMAT=32-bit_rle_rgbe\n";
-        const auto loaded = read(make_hdr(test_texels(8, 4), {Scheme::flat, "-Y +X", variables}));
+        const auto loaded = read_hdr_bytes(make_hdr(test_texels(8, 4), {Scheme::flat, "-Y +X", variables}));
         return loaded && warns_of(*loaded, "PRIMARIES");
     };
     EXPECT_FALSE(warns("0 0 0 0 0 0 0 0"));
@@ -120,7 +117,7 @@ TEST(ReadHdr, OnlyForeignPrimariesWarn) {
 }
 
 TEST(ReadHdr, OddShapesAndTrailingBytesWarn) {
-    const auto loaded = read(make_hdr(test_texels(9, 9)) + "more");
+    const auto loaded = read_hdr_bytes(make_hdr(test_texels(9, 9)) + "more");
     ASSERT_TRUE(loaded);
     EXPECT_TRUE(warns_of(*loaded, "2 : 1"));
     EXPECT_TRUE(warns_of(*loaded, "4 bytes after"));
@@ -130,7 +127,7 @@ TEST(ReadHdr, TruncatedAtEveryByteIsAnError) {
     for (const Scheme scheme : k_schemes) {
         const std::string whole = make_hdr(test_texels(20, 4), {.scheme = scheme});
         for (std::size_t length = 0; length < whole.size(); ++length) {
-            const auto loaded = read(whole.substr(0, length));
+            const auto loaded = read_hdr_bytes(whole.substr(0, length));
             ASSERT_FALSE(loaded) << length;
             EXPECT_EQ(message_of(loaded).rfind("picture.hdr: ", 0), 0u);
             const std::string expected = length > 2 ? "the file ends" : "at byte";
@@ -144,9 +141,9 @@ TEST(ReadHdr, ImpossibleSizesAreRefused) {
     for (const char* size : {"-Y 0 +X 0", "-Y 0 +X 5", "-Y -4 +X 8", "-Y 100000 +X 100000", "-Y 65536 +X 65536",
                              "-Y 4 +Y 8", "-Y 4", "-Y 4 +X", "-Y 4 +X 8 +Z 2", "Y 4 X 8", "-Y 4x +X 8",
                              "-Y 99999999999999999999 +X 1", "-Y 9223372036854775807 +X 9223372036854775807", ""})
-        EXPECT_FALSE(read(header + size + "\n" + std::string(64, '\x7f'))) << size;
+        EXPECT_FALSE(read_hdr_bytes(header + size + "\n" + std::string(64, '\x7f'))) << size;
     // This size is allowed, but so few bytes cannot hold it: it must fail before 3 GB are allocated.
-    const auto loaded = read(header + "-Y 16384 +X 16384\n" + std::string(64, '\x7f'));
+    const auto loaded = read_hdr_bytes(header + "-Y 16384 +X 16384\n" + std::string(64, '\x7f'));
     EXPECT_NE(message_of(loaded).find("cannot hold 16384 x 16384"), std::string::npos) << message_of(loaded);
 }
 
@@ -154,7 +151,8 @@ TEST(ReadHdr, DamagedVariablesAreErrors) {
     for (const char* line :
          {"EXPOSURE=0", "EXPOSURE=-1", "EXPOSURE=nan", "EXPOSURE=x", "EXPOSURE=1e300", "COLORCORR=1 2",
           "PRIMARIES=1 2 3", "PRIMARIES=.64 .33 .3 .6 .15 .06 0 0", "FORMAT=32-bit_rle_cmyk"}) {
-        const auto loaded = read(make_hdr(test_texels(8, 4), {Scheme::flat, "-Y +X", std::string(line) + "\n"}));
+        const auto loaded =
+            read_hdr_bytes(make_hdr(test_texels(8, 4), {Scheme::flat, "-Y +X", std::string(line) + "\n"}));
         EXPECT_NE(message_of(loaded).find("at byte 11"), std::string::npos) << line << ": " << message_of(loaded);
     }
 }
@@ -165,7 +163,7 @@ TEST(ReadHdr, DamagedRunsNameTheScanline) {
         std::string bytes = make_hdr(picture, {.scheme = scheme});
         const std::size_t scanline = (bytes.size() - bytes.find("+X 16\n") - 6) / 4;
         damage(bytes, bytes.size() - 2 * scanline);
-        return message_of(read(bytes));
+        return message_of(read_hdr_bytes(bytes));
     };
     const auto set = [](std::size_t offset, char value) {
         return [=](std::string& bytes, std::size_t begin) { bytes[begin + offset] = value; };

@@ -214,7 +214,7 @@ TEST(Folders, ImpossibleFoldersAreErrors) {
     for (const fs::path& bad : {folder.path() / "file", folder.path() / "file" / "inner"}) {
         const auto made = MadeFolder::make(bad);
         ASSERT_FALSE(made);
-        EXPECT_NE(made.error().message.find("cannot be made a folder"), std::string::npos) << made.error().message;
+        EXPECT_NE(made.error().message.find("cannot create the folder"), std::string::npos) << made.error().message;
     }
     EXPECT_EQ(folder.entries(), 1u);
 }

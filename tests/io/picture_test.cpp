@@ -1,4 +1,4 @@
-// PNG, JPEG and WebP: every kind decodes to the same picture, and damage never gives a partial one.
+// Tests PNG, JPEG and WebP: every kind decodes to the same picture, and damaged files never give a partial one.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,17 +15,17 @@ namespace lobelia {
 namespace {
 
 using namespace std::string_literals;
-using Colours = JpegSpec::Colours;
+using JpegColours = JpegSpec::Colours;
 using Scans = JpegSpec::Scans;
 
 constexpr std::size_t k_width = 19, k_height = 10, k_most_pixels = 1 << 16;
 
-Result<PictureRgba8> read(const std::string& bytes, std::size_t most_pixels = k_most_pixels) {
+Result<PictureRgba8> read_rgba8(const std::string& bytes, std::size_t most_pixels = k_most_pixels) {
     return read_picture_rgba8(std::as_bytes(std::span(bytes)), "picture", most_pixels);
 }
 
-std::string message_of(const std::string& bytes, std::size_t most_pixels = k_most_pixels) {
-    const auto picture = read(bytes, most_pixels);
+std::string picture_error(const std::string& bytes, std::size_t most_pixels = k_most_pixels) {
+    const auto picture = read_rgba8(bytes, most_pixels);
     return picture ? "" : picture.error().message;
 }
 
@@ -33,7 +33,7 @@ Result<LoadedImage> read_as_environment(const std::string& bytes) {
     return read_environment(std::as_bytes(std::span(bytes)), "picture", {.ldr = true, .most_pixels = k_most_pixels});
 }
 
-/// Largest difference of a sample; 256 if the sizes differ.
+/// Returns the largest difference of a sample; 256 if the sizes differ.
 int largest_difference(const PictureRgba8& a, const TestPicture& b) {
     if (a.width != b.width || a.height != b.height || a.texels.size() != b.texels.size()) return 256;
     int largest = 0;
@@ -64,23 +64,24 @@ std::vector<PngSpec> png_kinds() {
 
 std::vector<JpegSpec> jpeg_kinds() {
     std::vector<JpegSpec> kinds;
-    for (const Colours colours : {Colours::grey, Colours::ycc, Colours::rgb, Colours::cmyk, Colours::ycck})
+    for (const JpegColours colours :
+         {JpegColours::grey, JpegColours::ycc, JpegColours::rgb, JpegColours::cmyk, JpegColours::ycck})
         for (const Scans scans : {Scans::interleaved, Scans::by_component, Scans::progressive}) {
             kinds.push_back({.colours = colours, .scans = scans});
             kinds.push_back({.colours = colours, .scans = scans, .restart_interval = 2});
         }
-    kinds.push_back({.colours = Colours::cmyk, .adobe = false});
+    kinds.push_back({.colours = JpegColours::cmyk, .adobe = false});
     return kinds;
 }
 
-/// A file of each format.
+/// Returns a file of each format.
 std::vector<std::string> some_files() {
     const TestPicture picture = test_picture(k_width, k_height, Alpha::transparent);
     return {make_png(k_width, k_height).bytes,
             make_png(k_width, k_height, {PngSpec::Colours::palette, 4, true, true}).bytes,
             make_jpeg(picture),
             make_jpeg(picture, {.scans = Scans::progressive}),
-            make_jpeg(picture, {.colours = Colours::ycck, .scans = Scans::by_component}),
+            make_jpeg(picture, {.colours = JpegColours::ycck, .scans = Scans::by_component}),
             make_webp(picture),
             make_webp(picture, {.lossless = false})};
 }
@@ -88,7 +89,7 @@ std::vector<std::string> some_files() {
 TEST(ReadPicture, EveryKindOfPngDecodes) {
     for (const PngSpec& spec : png_kinds()) {
         const PngFile file = make_png(k_width, k_height, spec);
-        const auto picture = read(file.bytes);
+        const auto picture = read_rgba8(file.bytes);
         ASSERT_TRUE(picture) << picture.error().message;
         EXPECT_EQ(largest_difference(*picture, file.picture), 0)
             << static_cast<int>(spec.colours) << " bits " << spec.bits << " transparent " << spec.transparent;
@@ -98,34 +99,35 @@ TEST(ReadPicture, EveryKindOfPngDecodes) {
 TEST(ReadPicture, EveryKindOfJpegDecodes) {
     const TestPicture colours = test_picture(k_width, k_height);
     for (const JpegSpec& spec : jpeg_kinds()) {
-        const auto picture = read(make_jpeg(colours, spec));
+        const auto picture = read_rgba8(make_jpeg(colours, spec));
         ASSERT_TRUE(picture) << picture.error().message;
-        EXPECT_LE(largest_difference(*picture, spec.colours == Colours::grey ? grey(colours) : colours), 12)
+        EXPECT_LE(largest_difference(*picture, spec.colours == JpegColours::grey ? grey(colours) : colours), 12)
             << static_cast<int>(spec.colours) << " scans " << static_cast<int>(spec.scans);
     }
 }
 
 TEST(ReadPicture, EveryKindOfWebpDecodes) {
     const TestPicture colours = test_picture(k_width, k_height, Alpha::transparent);
-    const auto lossless = read(make_webp(colours)), lossy = read(make_webp(colours, {.lossless = false}));
+    const auto lossless = read_rgba8(make_webp(colours)), lossy = read_rgba8(make_webp(colours, {.lossless = false}));
     ASSERT_TRUE(lossless) << lossless.error().message;
     ASSERT_TRUE(lossy) << lossy.error().message;
     EXPECT_EQ(largest_difference(*lossless, colours), 0);
     EXPECT_LE(largest_difference(*lossy, colours), 60);
-    EXPECT_NE(message_of(make_animated_webp()).find("animated"), std::string::npos) << message_of(make_animated_webp());
+    EXPECT_NE(picture_error(make_animated_webp()).find("animated"), std::string::npos)
+        << picture_error(make_animated_webp());
 }
 
 TEST(ReadPicture, TruncatedAtEveryByteIsAnError) {
     for (const std::string& whole : some_files()) {
-        ASSERT_EQ(message_of(whole), "");
+        ASSERT_EQ(picture_error(whole), "");
         for (std::size_t length = 0; length < whole.size(); ++length)
-            EXPECT_EQ(message_of(whole.substr(0, length)).rfind("picture: ", 0), 0u)
+            EXPECT_EQ(picture_error(whole.substr(0, length)).rfind("picture: ", 0), 0u)
                 << length << " of " << whole.size() << " bytes of " << whole.substr(1, 3);
     }
 }
 
 TEST(ReadPicture, BytesAfterTheEndAreIgnored) {
-    for (const std::string& whole : some_files()) EXPECT_EQ(message_of(whole + std::string(99, 'x')), "");
+    for (const std::string& whole : some_files()) EXPECT_EQ(picture_error(whole + std::string(99, 'x')), "");
 }
 
 TEST(ReadPicture, AnyByteChangedIsAnErrorOrAPicture) {
@@ -134,7 +136,7 @@ TEST(ReadPicture, AnyByteChangedIsAnErrorOrAPicture) {
         for (int i = 0; i < 1000; ++i) {
             std::string bytes = good;
             for (int k = 0; k < 3; ++k) bytes[generator() % bytes.size()] = static_cast<char>(generator());
-            const auto picture = read(bytes);
+            const auto picture = read_rgba8(bytes);
             if (!picture) continue;
             ASSERT_EQ(picture->texels.size(), picture->width * picture->height);
         }
@@ -144,35 +146,36 @@ TEST(ReadPicture, JpegTablesMustBeDefined) {
     const TestPicture picture = test_picture(k_width, k_height);
     for (const Scans scans : {Scans::interleaved, Scans::by_component, Scans::progressive}) {
         const std::string good = make_jpeg(picture, {.scans = scans});
-        const std::string huffman = message_of(jpeg_without(good, 0xc4)),
-                          quantisation = message_of(jpeg_without(good, 0xdb));
+        const std::string huffman = picture_error(jpeg_without(good, 0xc4)),
+                          quantisation = picture_error(jpeg_without(good, 0xdb));
         EXPECT_NE(huffman.find("Huffman table"), std::string::npos) << huffman;
         EXPECT_NE(huffman.find("at byte"), std::string::npos) << huffman;
         EXPECT_NE(quantisation.find("uantization table"), std::string::npos) << quantisation;
     }
-    // Tables that a single scan names: of 0 to 3 but the two that are defined, and beyond what there can be.
-    auto segments = split_jpeg(make_jpeg(picture, {.colours = Colours::grey}));
+    // Use tables that a single scan names: of 0 to 3 all but the two defined ones, and numbers beyond the maximum.
+    auto segments = split_jpeg(make_jpeg(picture, {.colours = JpegColours::grey}));
     auto scan = std::find_if(segments.begin(), segments.end(), [](const auto& s) { return s.code == 0xda; });
     ASSERT_NE(scan, segments.end());
     for (const char tables : {'\x01', '\x10', '\x11', '\x02', '\x20', '\x33', '\x04', '\x40', '\xff'}) {
         scan->bytes[6] = tables;
-        EXPECT_NE(message_of(join_jpeg(segments)).find("Huffman table"), std::string::npos) << static_cast<int>(tables);
+        EXPECT_NE(picture_error(join_jpeg(segments)).find("Huffman table"), std::string::npos)
+            << static_cast<int>(tables);
     }
 }
 
 TEST(ReadPicture, LaterScansHaveNoDefaultTables) {
-    // A scan for each component; all but the first name tables that are never defined.
+    // Use a scan for each component; all but the first name undefined tables.
     for (const std::size_t defined : {std::size_t{1}, std::size_t{2}}) {
         auto segments = split_jpeg(make_jpeg(test_picture(k_width, k_height), {.scans = Scans::by_component}));
         std::size_t scans = 0;
         for (auto& segment : segments)
             if (segment.code == 0xda && ++scans > defined) segment.bytes[6] = '\x22';
-        EXPECT_NE(message_of(join_jpeg(segments)).find("Huffman table"), std::string::npos) << defined;
+        EXPECT_NE(picture_error(join_jpeg(segments)).find("Huffman table"), std::string::npos) << defined;
     }
     auto segments = split_jpeg(make_jpeg(test_picture(k_width, k_height), {.scans = Scans::by_component}));
     std::size_t tables = 0;
     std::erase_if(segments, [&](const JpegSegment& s) { return s.code == 0xc4 && ++tables > 2; });
-    EXPECT_FALSE(read(join_jpeg(segments)));
+    EXPECT_FALSE(read_rgba8(join_jpeg(segments)));
 }
 
 TEST(ReadPicture, EveryComponentNeedsAScan) {
@@ -181,7 +184,7 @@ TEST(ReadPicture, EveryComponentNeedsAScan) {
         const auto count = [&] {
             return std::count_if(segments.begin(), segments.end(), [](const auto& s) { return s.code == 0xda; });
         };
-        // Leave the first scan alone: of one component, or, if progressive, nothing but the last ones.
+        // Keep a single scan: the first one of a file by component, the last one of a progressive file.
         std::ptrdiff_t scans = 0;
         const std::ptrdiff_t all = count();
         std::erase_if(segments, [&](const JpegSegment& s) {
@@ -190,7 +193,7 @@ TEST(ReadPicture, EveryComponentNeedsAScan) {
             return kind == Scans::by_component ? scans > 1 : scans < all;
         });
         ASSERT_EQ(count(), 1);
-        EXPECT_FALSE(read(join_jpeg(segments)));
+        EXPECT_FALSE(read_rgba8(join_jpeg(segments)));
     }
 }
 
@@ -200,32 +203,32 @@ TEST(ReadPicture, ManyScansAreRefused) {
     ASSERT_NE(scan, segments.end());
     const JpegSegment copy = *scan;
     segments.insert(scan, 200, copy);
-    EXPECT_NE(message_of(join_jpeg(segments)).find("more than 100 scans"), std::string::npos);
+    EXPECT_NE(picture_error(join_jpeg(segments)).find("more than 100 scans"), std::string::npos);
 }
 
 TEST(ReadPicture, DamagedDataIsAnError) {
-    // A bit of the image data of a PNG, in all places: the checksum tells.
+    // Flip bits everywhere in the image data of a PNG: the checksum detects them.
     const PngFile png = make_png(k_width, k_height);
     for (std::size_t i = png.bytes.find("IDAT") + 4; i < png.bytes.size(); ++i) {
         std::string damaged = png.bytes;
         damaged[i] = static_cast<char>(damaged[i] ^ 4);
-        EXPECT_FALSE(read(damaged)) << i;
+        EXPECT_FALSE(read_rgba8(damaged)) << i;
     }
-    // Zeros, which mean the shortest code, in place of the end of the image data of a JPEG.
+    // Replace the end of the image data of a JPEG by zeros, which decode as the shortest code.
     const std::string jpeg = make_jpeg(test_picture(160, 160));
     std::string damaged = jpeg;
     std::fill(damaged.end() - 402, damaged.end() - 2, '\0');
-    EXPECT_FALSE(read(damaged));
+    EXPECT_FALSE(read_rgba8(damaged));
 }
 
 TEST(ReadPicture, OrientationIsIgnored) {
     const TestPicture picture = test_picture(k_width, k_height);
     auto segments = split_jpeg(make_jpeg(picture));
-    // Exif, little-endian, one entry: orientation, a short, 6 (turned by 90 degrees).
+    // Exif, little-endian, one entry: orientation, a short, 6 (rotated by 90 degrees).
     const std::string exif = "Exif\0\0II*\0\x08\0\0\0\x01\0\x12\x01\x03\0\x01\0\0\0\x06\0\0\0\0\0\0\0"s;
     const auto size = static_cast<char>(exif.size() + 2);
     segments.insert(segments.begin() + 1, {0xe1, "\xff\xe1\0"s + size + exif});
-    const auto turned = read(join_jpeg(segments)), plain = read(make_jpeg(picture));
+    const auto turned = read_rgba8(join_jpeg(segments)), plain = read_rgba8(make_jpeg(picture));
     ASSERT_TRUE(turned) << turned.error().message;
     EXPECT_EQ(turned->texels, plain->texels);
     EXPECT_EQ(turned->width, k_width);
@@ -233,28 +236,28 @@ TEST(ReadPicture, OrientationIsIgnored) {
 
 TEST(ReadPicture, LimitsHoldBeforeAllocation) {
     for (const std::string& bytes : some_files())
-        EXPECT_NE(message_of(bytes, k_width * k_height - 1).find("at most 189 pixels"), std::string::npos);
-    // 50000 x 50000 pixels in a few bytes: in the header of a PNG, and of a JPEG.
+        EXPECT_NE(picture_error(bytes, k_width * k_height - 1).find("at most 189 pixels"), std::string::npos);
+    // Claim 50000 x 50000 pixels in a few bytes: in the header of a PNG, and of a JPEG.
     std::string png = make_png(k_width, k_height).bytes;
     png.replace(16, 8, "\0\0\xc3\x50\0\0\xc3\x50"s);
-    EXPECT_FALSE(read(png, std::size_t{1} << 40));
+    EXPECT_FALSE(read_rgba8(png, std::size_t{1} << 40));
     auto segments = split_jpeg(make_jpeg(test_picture(k_width, k_height)));
     for (auto& segment : segments)
         if (segment.code == 0xc0) segment.bytes.replace(5, 4, "\xc3\x50\xc3\x50");
-    const std::string message = message_of(join_jpeg(segments), std::size_t{1} << 40);
+    const std::string message = picture_error(join_jpeg(segments), std::size_t{1} << 40);
     EXPECT_NE(message.find("cannot hold 50000 x 50000"), std::string::npos) << message;
 }
 
 TEST(ReadPicture, UnreadFormatsAreNamed) {
-    EXPECT_NE(message_of("BM123456").find("a BMP picture, which is not read; PNG, JPEG and WebP are"),
+    EXPECT_NE(picture_error("BM123456").find("a BMP picture is not supported; use PNG, JPEG or WebP"),
               std::string::npos);
-    EXPECT_NE(message_of("GIF89a").find("GIF"), std::string::npos);
-    EXPECT_NE(message_of("\xabKTX 20\xbb").find("KTX"), std::string::npos);
-    EXPECT_NE(message_of("text").find("neither PNG nor JPEG nor WebP"), std::string::npos);
-    EXPECT_NE(message_of("").find("empty"), std::string::npos);
+    EXPECT_NE(picture_error("GIF89a").find("GIF"), std::string::npos);
+    EXPECT_NE(picture_error("\xabKTX 20\xbb").find("KTX"), std::string::npos);
+    EXPECT_NE(picture_error("text").find("neither PNG nor JPEG nor WebP"), std::string::npos);
+    EXPECT_NE(picture_error("").find("empty"), std::string::npos);
     const auto bmp = read_as_environment("BM123456");
     ASSERT_FALSE(bmp);
-    EXPECT_NE(bmp.error().message.find("a BMP picture, which is not read"), std::string::npos) << bmp.error().message;
+    EXPECT_NE(bmp.error().message.find("a BMP picture is not supported"), std::string::npos) << bmp.error().message;
 }
 
 TEST(ReadLdr, SixteenBitsAreKept) {
@@ -266,7 +269,7 @@ TEST(ReadLdr, SixteenBitsAreKept) {
     for (const Rgb& pixel : loaded->image.pixels) levels.push_back(pixel.r);
     std::sort(levels.begin(), levels.end());
     levels.erase(std::unique(levels.begin(), levels.end()), levels.end());
-    // Of 190 random samples of 8 bits, more than a third would be equal to another.
+    // Among 190 random samples of 8 bits, more than a third would be equal to another.
     EXPECT_GT(levels.size(), 180u);
 }
 
@@ -282,7 +285,7 @@ TEST(ReadLdr, PicturesNeedTheOption) {
 }
 
 TEST(ReadLdr, OversizedHuffmanTablesAreRefused) {
-    // A table that claims 16 * 20 codes, of which there can be 256.
+    // A table that claims 16 * 20 codes; at most 256 are possible.
     std::string jpeg("\xff\xd8\xff\xc4\x01\x53\x00", 7);
     jpeg.append(16, 20).append(320, 'c').append("\xff\xd9");
     const auto loaded = read_as_environment(jpeg);
@@ -293,7 +296,7 @@ TEST(ReadLdr, OversizedHuffmanTablesAreRefused) {
 TEST(ReadLdr, ChunksLongerThanTheFileAreRefused) {
     const auto png = encode_png(to_srgb(test_image(16, 8), 0.02f));
     ASSERT_TRUE(png);
-    // The length of the first chunk of image data, set to 1 GiB.
+    // Set the length of the first chunk of image data to 1 GiB.
     std::string damaged = *png;
     const std::size_t at = damaged.find("IDAT") - 4;
     damaged.replace(at, 4, std::string("\x40\0\0\0", 4));

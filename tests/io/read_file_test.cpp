@@ -1,4 +1,4 @@
-// Files of others: only regular files are opened, and nothing waits for a pipe or reads a device without end.
+// Tests that only regular files are opened: no reader waits for a pipe or reads a device without end.
 #include <gtest/gtest.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
@@ -30,7 +30,7 @@ std::string message_of(const fs::path& path, const InputOptions& options = {}) {
     return file ? "" : file.error().message;
 }
 
-/// The messages of all readers for a path.
+/// Returns the messages of all readers for a path.
 std::vector<std::string> messages_of(const fs::path& path) {
     const auto message = [](const auto& result) { return result ? std::string() : result.error().message; };
     return {message(InputFile::open(path)), message(read_file(path, 100)), message(read_text(path)),
@@ -116,7 +116,7 @@ TEST_F(ReadFile, BelowAFolderNothingLeadsOutOfIt) {
 }
 
 TEST_F(ReadFile, LimitsHoldBeforeAllocation) {
-    // A file of 1 TiB without content.
+    // Make a sparse file of 1 TiB.
     test::overwrite(folder_ / "large", "");
     fs::resize_file(folder_ / "large", std::uintmax_t{1} << 40);
     EXPECT_NE(message_of(folder_ / "large", {.most_bytes = 100}).find("at most 100"), std::string::npos);

@@ -1,4 +1,4 @@
-// Codecs and storages are chosen by name, and summaries show one row for each basis.
+// Tests that codecs and storages are chosen by name, and that summaries show one row for each basis.
 #include "measure/compare_job.h"
 
 #include <gtest/gtest.h>

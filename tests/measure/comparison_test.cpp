@@ -105,14 +105,14 @@ TEST(Comparison, ErrorsOfTheMethodsAreThoseOfTheirCoefficients) {
         const Comparison result = compare(sky, {codec_name}, figures_only()).value();
         const Codec codec = make_codec(name).value();
         const Domain domain = codec.basis().domain();
-        const Samples judged = texel_samples(resize(sky, k_measuring_grid), domain);
-        const SampleView view = judged;
-        Colours L(judged.size()), E(judged.size()), reference(judged.size());
+        const Samples measured = texel_samples(resize(sky, k_measuring_grid), domain);
+        const SampleView view = measured;
+        Colours L(measured.size()), E(measured.size()), reference(measured.size());
         codec.radiance(result.methods[0].c, view.directions(), L);
         codec.irradiance(result.methods[0].c, view.directions(), E);
         irradiance_sum(texel_samples(sky, domain), view.directions(), reference);
         for (std::size_t k = 0; k < 3; ++k)
-            for (std::size_t i = 0; i < judged.size(); ++i) {
+            for (std::size_t i = 0; i < measured.size(); ++i) {
                 E.channel(k)[i] *= static_cast<float>(1 / k_pi);
                 reference.channel(k)[i] *= static_cast<float>(1 / k_pi);
             }

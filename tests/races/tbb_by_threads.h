@@ -1,9 +1,9 @@
-// The part of oneTBB that Lobelia uses, by plain threads: for `./test races`.
+// A replacement of the part of oneTBB that Lobelia uses, by plain threads: for `./test races`.
 //
-// The thread sanitizer must see every synchronisation. Debian's TBB is compiled without it: what one task hands to the
-// next would be reported as a race, and a suppression that covers this hides every real race inside a loop's body too.
-// Here each loop starts and joins threads of its own, and shares out its work by a relaxed counter: nothing but
-// starting and joining orders the bodies of a loop, so that unordered accesses are seen.
+// The thread sanitizer must see every synchronisation. Debian's TBB is compiled without it: it would report the
+// hand-over from one task to the next as a race, and a suppression of that also hides every real race inside a loop's
+// body. Here each loop starts and joins its own threads, and distributes its work by a relaxed counter: only starting
+// and joining order the bodies of a loop, so unordered accesses are detected.
 #pragma once
 
 #include <algorithm>
@@ -23,18 +23,18 @@
 namespace tbb {
 namespace by_threads {
 
-/// Threads that may run at once, with the callers' own; more than the sanitizer's machine needs to have cores.
+/// Maximum number of concurrent threads, including the callers' own.
 inline constexpr std::size_t k_automatic = 4;
 inline constexpr std::size_t k_slots = 64;
 
-inline std::atomic<std::size_t> global_limit{k_slots};  // See global_control.
+inline std::atomic<std::size_t> global_limit{k_slots};  // see global_control
 inline thread_local std::size_t arena_limit = k_automatic;
-inline thread_local std::size_t slot = 0;  // This thread's place in an enumerable_thread_specific.
+inline thread_local std::size_t slot = 0;  // this thread's place in an enumerable_thread_specific
 
 /// Places for running threads. The first is for threads that no loop started.
 class Slots {
   public:
-    /// A free place, or 0 where all are taken.
+    /// Returns a free place, or 0 if all are taken.
     static std::size_t take() {
         const std::lock_guard lock(mutex_);
         const auto free = static_cast<std::size_t>(std::countr_one(taken_));
@@ -119,7 +119,7 @@ void parallel_for(const blocked_range<Index>& range, const Body& body) {
     });
 }
 
-/// As TBB does: halves down to the grain, whose results are joined in the order of the tree.
+/// Like TBB's: halves down to the grain, with results joined in the order of the tree.
 template <class Index, class Value, class Body, class Join>
 Value parallel_deterministic_reduce(const blocked_range<Index>& range, const Value& identity, const Body& body,
                                     const Join& join) {
@@ -151,7 +151,7 @@ void parallel_sort(Items& items, const Less& less) {
     std::sort(items.begin(), items.end(), less);
 }
 
-/// A value for each thread that asks for one. A thread's place is found without a lock, which would order the bodies.
+/// A value per thread. A thread's place is found without a lock, which would order the bodies.
 template <class Value>
 class enumerable_thread_specific {
   public:
@@ -225,6 +225,7 @@ class global_control {
     enum parameter { max_allowed_parallelism };
     global_control(parameter, std::size_t threads) : before_(by_threads::global_limit.exchange(threads)) {}
     ~global_control() { by_threads::global_limit = before_; }
+    static std::size_t active_value(parameter) { return by_threads::global_limit; }
     global_control(const global_control&) = delete;
     global_control& operator=(const global_control&) = delete;
 

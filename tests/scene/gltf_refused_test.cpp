@@ -4,8 +4,10 @@
 
 #include <fstream>
 
+#include "data.h"
 #include "gltf_reading.h"
 #include "io/read_picture.h"
+#include "picture_files.h"
 #include "same_scenes.h"
 #include "scene/gltf/gather.h"
 
@@ -22,18 +24,18 @@ using test::scene_of_gltf;
 TEST(BadGltf, ContainerIsNamed) {
     EXPECT_TRUE(says(gltf_error(""), "test.glb: the file is empty"));
     EXPECT_TRUE(says(gltf_error("hello"), "neither a .glb nor a .gltf"));
-    EXPECT_TRUE(says(gltf_error("{\"asset\":"), "test.glb: broken JSON at byte"));
+    EXPECT_TRUE(says(gltf_error("{\"asset\":"), "test.glb: invalid JSON at byte"));
     EXPECT_TRUE(says(gltf_error("{}"), "asset.version: missing"));
-    EXPECT_TRUE(says(gltf_error(R"({"asset":{"version":"1.0"}})"), "glTF \"1.0\" is not read"));
+    EXPECT_TRUE(says(gltf_error(R"({"asset":{"version":"1.0"}})"), "glTF \"1.0\" is not supported"));
     EXPECT_TRUE(says(gltf_error(R"({"asset":{"version":"2.0"},"nodes":7})"), "nodes: not an array"));
     EXPECT_TRUE(says(gltf_error(R"({"asset":{"version":"2.0"},"nodes":[7]})"), "nodes[0]: not an object"));
     EXPECT_TRUE(says(gltf_error(std::string(10000, '[') + "]"), "neither a .glb"));
     EXPECT_TRUE(says(gltf_error("{\"a\":" + std::string(100000, '[')), "nests more than 64 levels"));
     const std::string glb = square_file().glb();
-    EXPECT_TRUE(says(gltf_error(glb.substr(0, glb.size() - 8)), "cut short"));
+    EXPECT_TRUE(says(gltf_error(glb.substr(0, glb.size() - 8)), "truncated"));
     std::string version = glb;
     version[4] = 1;
-    EXPECT_TRUE(says(gltf_error(version), "GLB version 1 is not read"));
+    EXPECT_TRUE(says(gltf_error(version), "GLB version 1 is not supported"));
 }
 
 /// A file cut off anywhere gives an error and nothing worse.
@@ -67,8 +69,8 @@ TEST(BadGltf, PlaceIsNamed) {
     expect_error("meshes[0].primitives[0].mode: 9", [&](F& f) { primitive(f)["mode"] = 9; });
     expect_error("accessors[0].count: not a whole number", [](F& f) { f.root["accessors"][0]["count"] = 4.5; });
     expect_error("exceed the 48 bytes", [](F& f) { f.root["accessors"][0]["count"] = 2000000000; });
-    expect_error("componentType 5130 is not read", [](F& f) { f.root["accessors"][0]["componentType"] = 5130; });
-    expect_error("matrices are not read", [](F& f) { f.root["accessors"][0]["type"] = "MAT4"; });
+    expect_error("componentType 5130 is not supported", [](F& f) { f.root["accessors"][0]["componentType"] = 5130; });
+    expect_error("matrices are not supported", [](F& f) { f.root["accessors"][0]["type"] = "MAT4"; });
     expect_error("bufferView 70 of", [](F& f) { f.root["accessors"][0]["bufferView"] = 70; });
     expect_error("bufferViews[0]: buffer 5 of 1", [](F& f) { f.root["bufferViews"][0]["buffer"] = 5; });
     expect_error("bufferViews[0]: bytes 0 + 18446744073709551615 of a buffer",
@@ -86,12 +88,12 @@ TEST(BadGltf, PlaceIsNamed) {
     expect_error("nodes[3].children: 77 of 8", [](F& f) { f.root["nodes"][3]["children"] = {77}; });
     expect_error("nodes[1]: it has several parents, nodes[0] and nodes[3]",
                  [](F& f) { f.root["nodes"][0]["children"] = {1}; });
-    expect_error("nodes[2]: it is among its own ancestors", [](F& f) {
+    expect_error("nodes[2]: it is one of its own ancestors", [](F& f) {
         f.root["nodes"][3]["children"] = {1};
         f.root["nodes"][2]["children"] = {2};
     });
-    expect_error("scenes[0].nodes: nodes[1] is no root", [](F& f) { f.root["scenes"][0]["nodes"] = {1}; });
-    expect_error("scenes[0].nodes: nodes[0] stands there twice", [](F& f) { f.root["scenes"][0]["nodes"] = {0, 0}; });
+    expect_error("scenes[0].nodes: nodes[1] is not a root", [](F& f) { f.root["scenes"][0]["nodes"] = {1}; });
+    expect_error("scenes[0].nodes: nodes[0] is listed twice", [](F& f) { f.root["scenes"][0]["nodes"] = {0, 0}; });
     expect_error("scene: 4 of 1", [](F& f) { f.root["scene"] = 4; });
     expect_error("its place in the world is not finite", [](F& f) {
         f.root["nodes"][3]["matrix"][0] = 1e30;
@@ -114,6 +116,27 @@ TEST(BadGltf, PlaceIsNamed) {
     expect_error("nodes[4].extensions.KHR_lights_punctual.light: not an index below 3",
                  [](F& f) { f.root["nodes"][4]["extensions"]["KHR_lights_punctual"]["light"] = 3; });
     expect_error("cameras[0].perspective.yfov", [](F& f) { f.root["cameras"][0]["perspective"]["yfov"] = 4; });
+}
+
+TEST(BadGltf, DamagedTextures) {
+    const std::string jpeg = make_jpeg(test_picture(19, 10));
+    for (const auto& [bytes, reason] :
+         {std::pair{jpeg_without(jpeg, 0xc4), "images[0]: damaged or unsupported JPEG: a scan names a Huffman table"},
+          {jpeg_without(jpeg, 0xdb), "images[0]: damaged or unsupported JPEG: "},
+          {jpeg.substr(0, jpeg.size() / 2), "images[0]: damaged or unsupported JPEG: the file ends too early"},
+          {make_png(19, 10).bytes.substr(0, 90), "images[0]: damaged PNG: the file ends too early"},
+          {make_webp(test_picture(19, 10)).substr(0, 60), "images[0]: damaged WebP: "},
+          {std::string("BM123456"), "images[0]: a BMP picture, which is not read"}})
+        expect_error(reason, [&](GltfFile& f) {
+            f.root["images"][0]["bufferView"] = f.view(std::string_view(bytes));
+            f.root["images"][0].erase("mimeType");
+        });
+    // A scan that names tables which were never defined, in a real file.
+    const auto file = test::cases_folder() / "jpeg-oob.glb";
+    if (!std::filesystem::exists(file)) return;
+    const auto loaded = read_gltf(file);
+    ASSERT_FALSE(loaded);
+    EXPECT_TRUE(says(loaded.error().message, "JPEG"));
 }
 
 TEST(BadGltf, NumbersThatAreNone) {
@@ -142,7 +165,7 @@ TEST(BadGltf, RequiredExtensionsNameTheRemedy) {
     EXPECT_TRUE(says(required("KHR_texture_basisu"), "gltf-transform ktxdecompress"));
     EXPECT_TRUE(says(required("EXT_texture_avif"), "gltf-transform png"));
     EXPECT_EQ(required("EXT_texture_webp"), "read without an error");
-    EXPECT_TRUE(says(required("ACME_secret"), "extensionsRequired: ACME_secret is not read"));
+    EXPECT_TRUE(says(required("ACME_secret"), "extensionsRequired: ACME_secret is not supported"));
     EXPECT_EQ(required("KHR_mesh_quantization"), "read without an error");
 }
 
@@ -152,13 +175,13 @@ TEST(BadGltf, CompressedDataWithoutAFallbackNamesTheRemedy) {
     file.root["meshes"][0]["primitives"][0]["extensions"]["KHR_draco_mesh_compression"] = {{"bufferView", 0}};
     EXPECT_EQ(gltf_error(file.glb()), "read without an error");
     file.root["accessors"][0].erase("bufferView");
-    EXPECT_TRUE(says(gltf_error(file.glb()), "meshes[0].primitives[0]: KHR_draco_mesh_compression is not read"));
+    EXPECT_TRUE(says(gltf_error(file.glb()), "meshes[0].primitives[0]: KHR_draco_mesh_compression is not supported"));
 
     json root = square_file().root;
     root["buffers"] =
         json::array({{{"byteLength", 60}, {"extensions", {{"EXT_meshopt_compression", {{"fallback", true}}}}}}});
     root["bufferViews"][0]["extensions"]["EXT_meshopt_compression"] = {{"buffer", 0}};
-    EXPECT_TRUE(says(gltf_error(root.dump()), "bufferViews[0]: EXT_meshopt_compression is not read"));
+    EXPECT_TRUE(says(gltf_error(root.dump()), "bufferViews[0]: EXT_meshopt_compression is not supported"));
 }
 
 /// A square of which EXT_mesh_gpu_instancing makes a million copies, by an accessor without data.
@@ -216,7 +239,7 @@ TEST(BadGltf, AStopEndsTheReading) {
 TEST(BadGltf, LimitsHoldBeforeAllocation) {
     GltfReadOptions options;
     options.most_triangles = 5;
-    EXPECT_TRUE(says(gltf_error(rich_file().glb(), options), "2 triangles; at most 1 are left to be read"));
+    EXPECT_TRUE(says(gltf_error(rich_file().glb(), options), "2 triangles; the limit allows 1 more"));
     options = {};
     options.most_objects = 3;
     EXPECT_TRUE(says(gltf_error(rich_file().glb(), options), "more than 3 objects"));

@@ -96,7 +96,7 @@ TEST(Colonnade, SunIsTheSkysSun) {
     for (const Rgb& p : scene.environment->pixels) EXPECT_LT(luminance(p), 1000);
 }
 
-/// The first triangle that a ray meets, by looking at all of them.
+/// Returns the first triangle that a ray hits, by testing all of them.
 std::optional<std::size_t> first_hit(const World& world, Vec3 origin, Vec3 direction) {
     std::optional<std::size_t> found;
     float nearest = INFINITY;
@@ -113,8 +113,8 @@ std::optional<std::size_t> first_hit(const World& world, Vec3 origin, Vec3 direc
     return found;
 }
 
-/// A point of a surface sees fronts, or lies hidden under something and sees backs alone. What sees both would be baked
-/// too dark: a leak.
+/// A point of a surface sees fronts, or is hidden and sees only backs. A point that sees both would be baked too dark:
+/// a leak.
 TEST(Colonnade, SurfacesThatAreSeenSeeFronts) {
     const Scene scene = colonnade_scene();
     const World world = make_world(scene);
@@ -122,7 +122,7 @@ TEST(Colonnade, SurfacesThatAreSeenSeeFronts) {
     for (std::size_t t = 0; t < world.triangles.size(); ++t) {
         const auto& [a, b, c] = world.triangles[t];
         const Vec3 n = cross(world.positions[b] - world.positions[a], world.positions[c] - world.positions[a]);
-        // By the area of the lightmap, and thus as many points as texels.
+        // Sample by lightmap area: as many points as texels.
         const Vec2 u = world.lightmap_uv[b] - world.lightmap_uv[a], v = world.lightmap_uv[c] - world.lightmap_uv[a];
         const bool counts = length(n) > 0 && !scene.materials[world.material[t]].double_sided;
         area.push_back(area.back() + (counts ? static_cast<double>(std::abs(u.x * v.y - u.y * v.x)) : 0));
@@ -152,7 +152,7 @@ TEST(Colonnade, SurfacesThatAreSeenSeeFronts) {
         backs_of_seen += backs;
     }
     EXPECT_GT(seen, k_points * 9 / 10);
-    // 0.1 % are at the feet of curtains and the ends of beams; it was 2.3 % with surfaces that went on under others.
+    // 0.1 % are at the feet of curtains and the ends of beams; it was 2.3 % with surfaces that continued under others.
     EXPECT_LT(backs_of_seen, 0.005 * seen * k_rays);
 }
 

@@ -1,13 +1,13 @@
-// Where the tests find environments and files that do not come with the project.
+// Locations of environments and files that are not part of the project.
 #pragma once
 
 #include <filesystem>
 
 namespace lobelia::test {
 
-/// The folder that the environment variable LOBELIA_DATA names, or else ../shared/data beside the checkout.
+/// Returns the folder named by the environment variable LOBELIA_DATA, or else ../shared/data beside the checkout.
 [[nodiscard]] std::filesystem::path data_folder();
-/// The folder "cases" beside that one: small inputs that once failed.
+/// Returns the folder "cases" beside it: small inputs that once failed.
 [[nodiscard]] std::filesystem::path cases_folder();
 
 }  // namespace lobelia::test

@@ -1,4 +1,4 @@
-// The environment that the literature publishes its figures on, where the data folder has it.
+// The environment used by published figures, if the data folder contains it.
 #pragma once
 
 #include <gtest/gtest.h>

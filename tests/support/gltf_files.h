@@ -30,7 +30,7 @@ struct GltfFile {
     /// Appends to an array of the root; returns the index there.
     std::size_t add(const char* array, nlohmann::json entry);
 
-    /// As text with the buffer as a data URI, and in binary.
+    /// Returns the file as text, with the buffer as a data URI, and as .glb.
     [[nodiscard]] std::string gltf() const;
     [[nodiscard]] std::string glb() const;
 

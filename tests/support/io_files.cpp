@@ -1,4 +1,4 @@
-// Small image files of every kind that the readers know, made in memory for the tests and as seeds for the fuzzers.
+// Small image files of every supported kind, made in memory for the tests and as seeds for the fuzzers.
 #include "io_files.h"
 
 #include <OpenEXR/ImfChannelList.h>
@@ -29,7 +29,7 @@ void append(std::string& bytes, const HdrTexel& texel) {
     for (const std::uint8_t b : texel) bytes.push_back(static_cast<char>(b));
 }
 
-/// How often the entry at `i` repeats, up to `most`.
+/// Returns how often the entry at `i` repeats, up to `most`.
 template <class Equal>
 std::size_t run_length(std::size_t i, std::size_t size, std::size_t most, const Equal& equal) {
     std::size_t length = 1;
@@ -60,7 +60,7 @@ void append_new_rle(std::string& bytes, const std::vector<HdrTexel>& line) {
     }
 }
 
-/// The scanlines of a picture as `axes` orders them.
+/// Returns the scanlines of a picture in the order of `axes`.
 std::vector<std::vector<HdrTexel>> scanlines(const HdrTexels& picture, const std::string& axes) {
     const bool columns = axes[1] == 'X';
     const bool left = axes[columns ? 0 : 3] == '-', up = axes[columns ? 3 : 0] == '+';
@@ -83,7 +83,7 @@ class StoredPlanes {
         for (std::size_t c = 0; c < bytes_.size(); ++c) {
             for (const Rgb& pixel : image.pixels)
                 append_sample(c, spec.type, std::array{pixel.r, pixel.g, pixel.b}[c % 3]);
-            // Origins are multiples of bytes, so a plain offset does.
+            // Origins are multiples of bytes, so a plain offset is enough.
             const std::ptrdiff_t origin = (spec.top * static_cast<std::ptrdiff_t>(image.width) + spec.left) * size;
             buffer_.insert(spec.channels[c],
                            Imf::Slice(spec.type, bytes_[c].data() - origin, size, size * image.width));

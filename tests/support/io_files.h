@@ -1,4 +1,4 @@
-// Small image files of every kind that the readers know, made in memory for the tests and as seeds for the fuzzers.
+// Small image files of every supported kind, made in memory for the tests and as seeds for the fuzzers.
 #pragma once
 
 #include <OpenEXR/ImfCompression.h>
@@ -28,9 +28,9 @@ struct HdrTexels {
 struct HdrSpec {
     enum class Scheme { flat, old_rle, new_rle };
     Scheme scheme = Scheme::new_rle;
-    /// The signs and the order of the resolution line: "-Y +X" is the usual one, "+X -Y" goes column by column.
+    /// Signs and order of the resolution line: "-Y +X" is the usual one, "+X -Y" goes column by column.
     std::string axes = "-Y +X";
-    /// Lines of the header, each with its '\n'.
+    /// Header lines, each with its '\n'.
     std::string variables = "FORMAT=32-bit_rle_rgbe\n";
 };
 [[nodiscard]] std::string make_hdr(const HdrTexels& picture, const HdrSpec& spec = {});
@@ -47,7 +47,7 @@ struct ExrSpec {
     std::vector<std::string> channels{"R", "G", "B"};
     /// The data window's upper left corner.
     int left = 0, top = 0;
-    /// Left, top, right and bottom (included) of the display window; else it is the data window.
+    /// Left, top, right and bottom (included) of the display window; absent: the data window.
     std::optional<std::array<int, 4>> display = std::nullopt;
     std::optional<Imf::Envmap> envmap = std::nullopt;
 };

@@ -14,7 +14,7 @@
 
 namespace lobelia::test {
 
-/// The value of IEEE 754 binary16 `bits`, from its definition.
+/// Returns the value of IEEE 754 binary16 `bits`, from its definition.
 inline double value_of_half(std::uint16_t bits) {
     const double sign = bits & 0x8000 ? -1 : 1;
     const int exponent = bits >> 10 & 31, mantissa = bits & 1023;
@@ -22,7 +22,7 @@ inline double value_of_half(std::uint16_t bits) {
     return sign * (exponent == 0 ? std::ldexp(mantissa, -24) : std::ldexp(1024 + mantissa, exponent - 25));
 }
 
-/// The bytes of base64 without padding, from its definition.
+/// Decodes base64 without padding, from its definition.
 inline std::vector<std::uint8_t> bytes_of_base64(const std::string& text) {
     const std::string alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     std::vector<std::uint8_t> bytes;
@@ -45,7 +45,7 @@ inline std::vector<double> values_of(const Picture& picture) {
     return values;
 }
 
-/// Returns the text between `<script ... id="name">` and the first sequence that a browser takes for its end.
+/// Returns the text between `<script ... id="name">` and the first sequence that a browser accepts as its end.
 inline std::string script_element(const std::string& html, const std::string& name) {
     const std::size_t begin = html.find('>', html.find("id=\"" + name + "\"")) + 1;
     return html.substr(begin, html.find("</script", begin) - begin);
@@ -59,7 +59,7 @@ inline void expect_loads_nothing(const std::string& html) {
     EXPECT_NE(html.find("default-src 'none'"), std::string::npos);
 }
 
-/// Placeholders are lower-case names, or names of files.
+/// Placeholders are lower-case names or file names.
 inline void expect_filled(const std::string& html) {
     std::smatch mark;
     EXPECT_FALSE(std::regex_search(html, mark, std::regex(R"(\{\{[a-z_/]+(\.[a-z]+)?\}\})"))) << mark.str();

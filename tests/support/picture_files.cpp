@@ -1,4 +1,4 @@
-// Small PNG, JPEG and WebP files. Errors of the libraries end the program: what is made here is valid.
+// Small PNG, JPEG and WebP files. Errors of the libraries end the program, because these files are valid.
 #include "picture_files.h"
 
 #include <png.h>
@@ -17,7 +17,7 @@ namespace {
 
 std::uint8_t byte(std::size_t value) { return static_cast<std::uint8_t>(value); }
 
-/// A sample of `bits` bits that takes all values over a picture, also next to each other.
+/// Returns a sample of `bits` bits; takes all values over a picture, including neighbouring ones.
 std::uint16_t test_sample(std::size_t x, std::size_t y, std::size_t channel, int bits) {
     return static_cast<std::uint16_t>((x * 2654435761u + y * 40503u + channel * 977u + (x >> 3) * 31u) >> 3 &
                                       ((1u << bits) - 1));
@@ -134,7 +134,7 @@ J_COLOR_SPACE stored_space(JpegSpec::Colours colours) {
     return JCS_YCCK;
 }
 
-/// A scan for each component, of all its coefficients.
+/// Adds a scan for each component, with all its coefficients.
 std::vector<jpeg_scan_info> component_scans(int components) {
     std::vector<jpeg_scan_info> scans;
     for (int c = 0; c < components; ++c) scans.push_back({1, {c, 0, 0, 0}, 0, 63, 0, 0});
@@ -256,7 +256,7 @@ std::vector<JpegSegment> split_jpeg(const std::string& bytes) {
         const std::uint8_t code = at(begin + 1);
         std::size_t end = begin + 2;
         if (code != 0xd8 && code != 0xd9) end += at(end) * 256u + at(end + 1);
-        // Image data goes on to the next marker that is no restart.
+        // Image data continues to the next marker that is not a restart marker.
         if (code == 0xda)
             while (end + 1 < bytes.size() &&
                    (at(end) != 0xff || at(end + 1) == 0 || (at(end + 1) >= 0xd0 && at(end + 1) <= 0xd7)))

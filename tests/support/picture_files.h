@@ -39,16 +39,16 @@ struct JpegSpec {
     Scans scans = Scans::interleaved;
     bool arithmetic = false;
     unsigned restart_interval = 0;
-    bool adobe = true;  ///< with the segment of Adobe, for CMYK: 255 is no ink
+    bool adobe = true;  ///< adds an Adobe segment, for CMYK: 255 is no ink
 };
-/// Without subsampling, quality 95. CMYK is made without black.
+/// Makes a JPEG without subsampling, quality 95. CMYK is made without black.
 [[nodiscard]] std::string make_jpeg(const TestPicture& picture, const JpegSpec& spec = {});
 
 struct WebpSpec {
     bool lossless = true;
 };
 [[nodiscard]] std::string make_webp(const TestPicture& picture, const WebpSpec& spec = {});
-/// The header of an animation, as it begins.
+/// Returns the first bytes of an animation.
 [[nodiscard]] std::string make_animated_webp();
 
 /// Segments of a JPEG file: `code` is the second byte of the marker. Image data follows its segment of code 0xda.
@@ -58,7 +58,7 @@ struct JpegSegment {
 };
 [[nodiscard]] std::vector<JpegSegment> split_jpeg(const std::string& bytes);
 [[nodiscard]] std::string join_jpeg(const std::vector<JpegSegment>& segments);
-/// Without the segments of one kind.
+/// Removes the segments of one kind.
 [[nodiscard]] std::string jpeg_without(const std::string& bytes, std::uint8_t code);
 
 }  // namespace lobelia

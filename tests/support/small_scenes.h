@@ -18,6 +18,19 @@ inline Material matte(Rgb color, Rgb emission = {}) {
     return m;
 }
 
+/// A light of this kind with every field that it may have.
+inline PunctualLight some_light(PunctualLight::Kind kind) {
+    PunctualLight light;
+    light.name = "light";
+    light.kind = kind;
+    light.intensity = {1, 2, 3};
+    light.position = {0.5f, 2, -0.25f};
+    light.direction = normalize(Vec3{0.1f, -1, 0.2f});
+    light.inner_angle = 0.3f;
+    light.outer_angle = 0.8f;
+    return light;
+}
+
 inline void add_triangle(Mesh& mesh, std::uint32_t material, Vec3 a, Vec3 b, Vec3 c) {
     const auto n = static_cast<std::uint32_t>(mesh.positions.size());
     for (const Vec3 p : {a, b, c}) mesh.positions.push_back(p);
@@ -115,7 +128,7 @@ class Estimate {
     double count_ = 0, mean_ = 0, squares_ = 0;
 };
 
-/// How many standard errors two estimates differ by.
+/// Returns the difference of two estimates in standard errors.
 inline double deviation(const Estimate& a, const Estimate& b) {
     const double error = std::hypot(a.standard_error(), b.standard_error());
     const double difference = std::abs(a.mean() - b.mean());

@@ -38,14 +38,14 @@ Samples samples_of(Domain domain, std::size_t count, const Radiance& radiance, S
     return reordered(samples, shuffled_order(count, generator));
 }
 
-/// Entries [begin, end) as samples of their own: unlike part(), from any entry on.
+/// Returns entries [begin, end) as samples; unlike part(), from any entry on.
 inline Samples slice(const Samples& samples, std::size_t begin, std::size_t end) {
     Samples result(end - begin);
     for (std::size_t i = begin; i < end; ++i) result.set(i - begin, samples[i]);
     return result;
 }
 
-/// The same samples with their directions turned.
+/// Returns the same samples with rotated directions.
 inline Samples turned(const Samples& samples, const Rotation& r) {
     Samples result(samples.size());
     for (std::size_t i = 0; i < samples.size(); ++i) {
@@ -65,7 +65,7 @@ inline Directions turned(const Directions& directions, const Rotation& r) {
 /// The default sky with its sun, small: a high dynamic range, and dark below.
 inline Image small_sky() { return sky({64, 32}); }
 
-/// Every texel once, shuffled.
+/// Returns every texel once, shuffled.
 inline Samples shuffled_texels(const Image& image, Domain domain, std::uint32_t seed) {
     const Samples texels = texel_samples(image, domain);
     std::mt19937 generator(seed);
@@ -120,6 +120,19 @@ inline bool all_finite(ColourView a) {
         if (!std::all_of(a.channel(k), a.channel(k) + a.size, [](float v) { return std::isfinite(v); })) return false;
     return true;
 }
+/// Colours uniform in [-1, 1) per channel.
+inline std::vector<Rgb> random_colours(std::size_t count, std::uint32_t seed) {
+    std::mt19937 generator(seed);
+    const auto uniform = [&] { return static_cast<float>(generator()) * 0x1p-31f - 1; };
+    std::vector<Rgb> c(count);
+    for (Rgb& v : c) v = {uniform(), uniform(), uniform()};
+    return c;
+}
+/// A rotation that takes +z to the unit vector `n`.
+inline Rotation rotation_to(Vec3 n) {
+    const Vec3 t = normalize(cross(std::abs(n.x) < 0.9f ? Vec3{1, 0, 0} : Vec3{0, 1, 0}, n)), b = cross(n, t);
+    return {Vec3{t.x, b.x, n.x}, Vec3{t.y, b.y, n.y}, Vec3{t.z, b.z, n.z}};
+}
 inline float least(ColourView a) {
     float result = INFINITY;
     for (std::size_t k = 0; k < 3; ++k)
@@ -127,8 +140,8 @@ inline float least(ColourView a) {
     return result;
 }
 
-/// The value that chi-square of `freedom` degrees exceeds with probability 1e-4 (Wilson and Hilferty 1931, good to
-/// better than 1 % from 10 degrees on): 3.719 is the normal quantile.
+/// Returns the value that chi-square of `freedom` degrees exceeds with probability 1e-4 (Wilson and Hilferty 1931,
+/// accurate to 1 % from 10 degrees on): 3.719 is the normal quantile.
 inline double chi_square_limit(std::size_t freedom) {
     const double v = 2.0 / (9.0 * static_cast<double>(freedom));
     return static_cast<double>(freedom) * std::pow(1 - v + 3.719 * std::sqrt(v), 3);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/sample/directions.h"
+#include "scene/light/light_kind.h"
 #include "small_scenes.h"
 #include "support.h"
 
@@ -105,6 +106,30 @@ Scene many_lights() {
     return scene;
 }
 
+TEST(EveryLightKind, ReachesPointsWithItsProfile) {
+    for (const auto kind : light_kinds()) {
+        SCOPED_TRACE(light_kind(kind).name);
+        Scene scene;
+        const PunctualLight light = test::some_light(kind);
+        scene.lights = {light};
+        const World world = make_world(scene);
+        const Surfaces surfaces(scene, world);
+        const Lights lights(scene, surfaces, {});
+        for (const Vec3 to : {light.direction * -2.0f, Vec3{0.5f, 1, 0}, Vec3{3, 1, 0}, Vec3{0, -1, 0.5f}}) {
+            const bool near = light_kind(kind).place == LightPlace::near;
+            const LightSample s = lights.sample({light.position - to, {}}, 0.5f, {0.5f, 0.5f});
+            const Vec3 towards = near ? normalize(to) : light.direction * -1.0f;
+            const auto profile = light_kind(kind).profile;
+            const float fraction = profile != nullptr ? profile(light, -dot(towards, light.direction)) : 1;
+            const float expected = light.intensity.g * fraction / (near ? dot(to, to) : 1);
+            EXPECT_NEAR(s.irradiance.g, expected, 1e-5f * expected + 1e-9f);
+            if (expected > 0) {
+                EXPECT_NEAR(dot(s.direction, towards), 1, 1e-6f);
+            }
+        }
+    }
+}
+
 class ManyLights : public ::testing::Test {
   protected:
     Scene scene_ = many_lights();
@@ -121,7 +146,7 @@ TEST_F(ManyLights, SampledTrianglesHaveTheDensityThatIsStated) {
         const LightSample s = lights_.sample(at, pair(1, i, 0, 1).a, pair(1, i, 1, 1));
         if (s.pdf == 0 || !(s.distance < INFINITY)) continue;
         const RayHit hit = rays.closest_stop(at.position, s.direction, 0, Backs::pass);
-        // What is hidden by another triangle cannot be found by its ray.
+        // Skip points occluded by another triangle: their ray cannot find them.
         if (std::abs(hit.distance - s.distance) > 1e-4f) continue;
         const Facet& facet = surfaces_.facet(hit.triangle);
         const float pdf =

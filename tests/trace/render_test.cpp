@@ -151,7 +151,7 @@ TEST(RenderBake, GlossyWallsReflectWhatTheyScatter) {
     for (std::uint32_t s = 0; s < options.samples; ++s) {
         const PathStart ray = rays.ray(0, s);
         Sight sight;
-        view.look({&ray, 1}, {&sight, 1});
+        view.resolve({&ray, 1}, {&sight, 1});
         ASSERT_EQ(sight.kind, Sight::Kind::baked);
         const SurfacePoint at = view.surfaces().point(sight.hit.triangle, sight.hit.u, sight.hit.v, ray.direction);
         const Vec3 wo{std::sqrt(std::max(0.0f, 1 - std::pow(dot(at.normal, ray.direction), 2.0f))), 0,

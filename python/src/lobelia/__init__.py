@@ -61,6 +61,7 @@ def bake(
     push_out=True,
     precision="half",
     storages=None,
+    container="ktx2",
     probe_spacing=None,
     resume=False,
     progress=None,
@@ -77,7 +78,8 @@ def bake(
     time: stop after the first pass that exceeds this many seconds.
     target_error: a texel is done when its relative standard error is below this.
     frame: "world" or "tangent", of spherical coefficients. directions: "uniform" or "mixture".
-    precision: "half" or "float", of the pages in the folder. storages: of its KTX2 textures; None: the default ones.
+    precision: "half" or "float", of the pages in the folder. storages: of its textures; None: the default ones.
+    container: file format of the textures, "ktx2".
     probe_spacing: also bake probes, on a grid of this spacing [m].
     resume: continue the checkpoint in the folder.
     progress: is called with a Progress, at most 20 times a second; an exception that it raises stops the bake.

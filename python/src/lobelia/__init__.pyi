@@ -155,7 +155,12 @@ class Bake:
     @property
     def objects(self) -> list[str]: ...
     def write(
-        self, folder: Path, *, storages: Optional[Sequence[str]] = None, scene: Optional[Scene] = None
+        self,
+        folder: Path,
+        *,
+        storages: Optional[Sequence[str]] = None,
+        scene: Optional[Scene] = None,
+        container: str = "ktx2",
     ) -> None: ...
 
 def bake(
@@ -180,6 +185,7 @@ def bake(
     push_out: bool = True,
     precision: str = "half",
     storages: Optional[Sequence[str]] = None,
+    container: str = "ktx2",
     probe_spacing: Optional[float] = None,
     resume: bool = False,
     progress: Optional[Callable[[Progress], object]] = None,

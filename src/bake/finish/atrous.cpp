@@ -1,4 +1,4 @@
-// The filter's loops: row by row and tap by tap, in vector lanes.
+// The filter's inner loops, row by row and tap by tap, vectorised.
 #include "bake/finish/atrous.h"
 
 #include <cassert>
@@ -14,7 +14,7 @@ HWY_BEFORE_NAMESPACE();
 namespace lobelia::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// How much a value with this weight counts.
+/// Returns the factor of a term whose filter weight is `weight`.
 template <AtrousMean mean, class V>
 HWY_INLINE V influence(V weight) {
     if constexpr (mean == AtrousMean::first_variances) return hn::Mul(weight, weight);
@@ -25,7 +25,7 @@ HWY_INLINE V influence(V weight) {
     return weight;
 }
 
-/// Values of weight 0 are not looked at: they may be anything.
+/// Adds weighted values. Values of weight 0 are ignored, NaN included.
 template <AtrousMean mean, class D>
 HWY_INLINE void add(D d, const float* weight, const float* value, float* sum, float* total) {
     const auto w = hn::LoadU(d, weight), v = hn::LoadU(d, value);
@@ -36,7 +36,7 @@ HWY_INLINE void add(D d, const float* weight, const float* value, float* sum, fl
     hn::StoreU(hn::Add(hn::LoadU(d, total), hn::IfThenElseZero(counts, w)), d, total);
 }
 
-/// What has no neighbours keeps its value to the last bit, and so does what is unknown for good.
+/// Divides sums by total weights. Texels without neighbours or without known values keep their value bit for bit.
 template <AtrousMean mean, class D>
 HWY_INLINE void divide(D d, const float* sum, const float* total, const float* from, float* to) {
     const auto t = hn::LoadU(d, total);
@@ -45,7 +45,7 @@ HWY_INLINE void divide(D d, const float* sum, const float* total, const float* f
     hn::StoreU(hn::IfThenElse(alone, hn::LoadU(d, from), quotient), d, to);
 }
 
-/// Calls visit(tag, i) for lanes from i on, whole vectors first.
+/// Calls visit(tag, i) for all lanes, whole vectors first.
 template <class Visit>
 HWY_INLINE void for_each_lane(std::size_t count, const Visit& visit) {
     const hn::ScalableTag<float> d;
@@ -54,7 +54,7 @@ HWY_INLINE void for_each_lane(std::size_t count, const Visit& visit) {
     for (; i < count; ++i) visit(hn::CappedTag<float, 1>(), i);
 }
 
-/// Row y of the result; sum and total have room for a row.
+/// Computes row y of the result; `sum` and `total` are buffers of one row.
 template <AtrousMean mean>
 void average_row(const AtrousWeights& weights, const float* from, std::size_t y, float* to, float* sum, float* total) {
     const std::size_t width = weights.width;
@@ -71,7 +71,7 @@ void average_row(const AtrousWeights& weights, const float* from, std::size_t y,
         const std::size_t dy = static_cast<std::size_t>(k_atrous_taps[k].y) * weights.step;
         const std::size_t dx = static_cast<std::size_t>(std::abs(k_atrous_taps[k].x)) * weights.step;
         if (dx >= width) continue;
-        // The weights belong to the upper one of two texels; a tap to the left begins where there is a left.
+        // Weights are stored at the upper of two texels; taps to the left start at column dx.
         const std::size_t here = k_atrous_taps[k].x < 0 ? dx : 0, there = dx - here, count = width - dx;
         const auto add_row = [&](const float* weight, const float* value, std::size_t first) {
             for_each_lane(count, [&](auto d, std::size_t x) {

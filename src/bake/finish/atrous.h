@@ -8,7 +8,7 @@
 
 namespace lobelia {
 
-/// Half of a texel's neighbours; the other half has it as theirs. Binomial weights, beside the centre's 1/4.
+/// Half of a texel's eight neighbours; symmetry gives the other half. Binomial weights; the centre's is 1/4.
 struct AtrousTap {
     int x = 0, y = 0;
     float weight = 0;
@@ -17,21 +17,21 @@ inline constexpr std::array<AtrousTap, 4> k_atrous_taps = {
     AtrousTap{1, 0, 1.0f / 8}, {-1, 1, 1.0f / 16}, {0, 1, 1.0f / 8}, {1, 1, 1.0f / 16}};
 inline constexpr float k_atrous_centre = 1.0f / 4;
 
-/// weight[k][i] joins texel i and the one that tap k, `step` times as long, reaches from it; 0 where that is not to be
-/// read or lies off the page.
+/// weight[k][i] joins texel i and its neighbour at tap k times `step`; 0 if they must not be mixed or the neighbour
+/// lies off the page.
 struct AtrousWeights {
     std::size_t width = 0, height = 0;
     std::size_t step = 1;
     std::array<std::vector<float>, k_atrous_taps.size()> weight;
 };
 
-/// values: means. known_values: means of what is not NaN; NaN where all is. first_variances, later_variances: what
-/// variance such a mean has. Independent errors add by the squares of their weights; after the first pass neighbours
-/// have texels in common, and a full kernel leaves about half the variance along each axis instead of 3/8: an exponent
-/// of 7/4 says so, and leaves a texel alone that has no neighbours.
+/// Kinds of averages. values: means. known_values: means of the values that are not NaN; NaN if all are.
+/// first_variances, later_variances: variances of such means. Variances of independent errors are weighted by squared
+/// weights; after the first pass neighbours share texels, and a full kernel leaves about half the variance along each
+/// axis instead of 3/8: an exponent of 7/4 reproduces that, and leaves texels without neighbours unchanged.
 enum class AtrousMean { values, known_values, first_variances, later_variances };
 
-/// `from` and `to` have width * height values and are not the same.
+/// Averages the plane `from` into `to`. Both have width * height values, and must be different vectors.
 void average(const AtrousWeights& weights, AtrousMean mean, const std::vector<float>& from, std::vector<float>& to);
 
 }  // namespace lobelia

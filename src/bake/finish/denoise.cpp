@@ -16,13 +16,13 @@
 namespace lobelia {
 namespace {
 
-/// Between normals, and between the surface and the line to a neighbour [radians]: one standard deviation.
+/// Standard deviation [radians] of the angle between normals, and between the surface and the line to a neighbour.
 constexpr float k_bend = 0.15f;
-/// Neighbours farther away than this, in texel's widths times the step, are no neighbours: the chart has a gap.
+/// Maximum distance of neighbours, in texel widths times the step: beyond it the chart has a gap.
 constexpr float k_gap = 3;
-/// Noise below this share of the irradiance is let alone.
+/// Noise below this fraction of the irradiance is not filtered.
 constexpr float k_quiet = 1e-3f;
-/// Where coefficients cancel each other, brightness is still this share of the sum of their sizes.
+/// Lower limit of the brightness, as a fraction of the sum of the coefficients' magnitudes: they may cancel.
 constexpr float k_least_share = 0.25f;
 
 class PageDenoiser {
@@ -40,10 +40,10 @@ class PageDenoiser {
     void multiply();
     void find_spacing();
     void smooth_variance();
-    /// Sets the weights of a step: each tap's own times weight(i, j), i and j being usable and of one chart.
+    /// Sets the weights of a step: the tap's weight times weight(i, j), for usable texels i and j of one chart.
     template <class Weight>
-    void weigh(std::size_t step, const Weight& weight);
-    /// The exponent by which geometry alone weighs texels, 0 or less; none where they are no neighbours.
+    void set_weights(std::size_t step, const Weight& weight);
+    /// Returns the exponent (at most 0) of the geometric weight; nothing if the texels are not neighbours.
     [[nodiscard]] std::optional<float> geometry(std::size_t i, std::size_t j) const;
     [[nodiscard]] float weight(std::size_t i, std::size_t j) const;
     void average_all();
@@ -53,11 +53,11 @@ class PageDenoiser {
     const PageChannels& channels_;
     std::span<const Vec3> position_, normal_;
     const DenoiseOptions& options_;
-    std::array<std::vector<float>, 3> brightness_;  ///< by channel
-    /// Irradiance over brightness: it takes the same steps as the coefficients, so that it stays what they give at the
-    /// normal. The irradiance itself is filtered, too, for the weights.
+    std::array<std::vector<float>, 3> brightness_;  ///< per channel
+    /// Irradiance over brightness, filtered like the coefficients, so that it stays equal to their irradiance at the
+    /// normal. The irradiance itself is filtered as well, for the weights.
     std::array<std::vector<float>, 3> irradiance_ratio_;
-    std::vector<float> spacing_;  ///< of neighbours in the world, squared
+    std::vector<float> spacing_;  ///< squared distance of neighbours in the world [m^2]
     AtrousWeights weights_;
     tbb::enumerable_thread_specific<std::vector<float>> work_;
 };
@@ -73,7 +73,7 @@ void PageDenoiser::for_each_usable(const Visit& visit) const {
 
 void PageDenoiser::run(std::span<const double> integrals, double domain_solid_angle) {
     divide(integrals, domain_solid_angle);
-    // An error that nobody knows counts as none.
+    // Replace unknown errors by 0.
     auto& error = page_.planes[channels_.error()];
     for_each_usable(
         [&](std::size_t i, std::size_t, std::size_t) { error[i] = std::isfinite(error[i]) ? error[i] * error[i] : 0; });
@@ -83,7 +83,7 @@ void PageDenoiser::run(std::span<const double> integrals, double domain_solid_an
     find_spacing();
     smooth_variance();
     for (int level = 0; level < std::clamp(options_.passes, 1, 6); ++level) {
-        weigh(std::size_t{1} << level, [&](std::size_t i, std::size_t j) { return weight(i, j); });
+        set_weights(std::size_t{1} << level, [&](std::size_t i, std::size_t j) { return weight(i, j); });
         average_all();
     }
     for_each_usable([&](std::size_t i, std::size_t, std::size_t) { error[i] = std::sqrt(error[i]); });
@@ -126,7 +126,7 @@ void PageDenoiser::multiply() {
 }
 
 template <class Weight>
-void PageDenoiser::weigh(std::size_t step, const Weight& weight) {
+void PageDenoiser::set_weights(std::size_t step, const Weight& weight) {
     weights_.step = step;
     for_each_usable([&](std::size_t i, std::size_t x, std::size_t y) {
         for (std::size_t k = 0; k < k_atrous_taps.size(); ++k) {
@@ -145,21 +145,21 @@ void PageDenoiser::weigh(std::size_t step, const Weight& weight) {
 void PageDenoiser::find_spacing() {
     spacing_.assign(page_.size(), 0);
     for_each_usable([&](std::size_t i, std::size_t x, std::size_t y) {
-        const auto look = [&](bool on_page, std::size_t j) {
+        const auto add_neighbour = [&](bool on_page, std::size_t j) {
             if (!on_page || !usable(j) || page_.chart[j] != page_.chart[i]) return;
             const Vec3 d = position_[j] - position_[i];
             spacing_[i] = std::max(spacing_[i], dot(d, d));
         };
-        look(x > 0, i - 1);
-        look(x + 1 < page_.width, i + 1);
-        look(y > 0, i - page_.width);
-        look(y + 1 < page_.height, i + page_.width);
+        add_neighbour(x > 0, i - 1);
+        add_neighbour(x + 1 < page_.width, i + 1);
+        add_neighbour(y > 0, i - page_.width);
+        add_neighbour(y + 1 < page_.height, i + page_.width);
     });
 }
 
-/// The error is itself measured, and noisy: averages it over 3 x 3 texels by geometry alone.
+/// Averages the variance over 3 x 3 texels with geometric weights, because the measured variance is noisy.
 void PageDenoiser::smooth_variance() {
-    weigh(1, [&](std::size_t i, std::size_t j) {
+    set_weights(1, [&](std::size_t i, std::size_t j) {
         const std::optional<float> exponent = geometry(i, j);
         return exponent ? std::exp(*exponent) : 0;
     });
@@ -173,7 +173,7 @@ std::optional<float> PageDenoiser::geometry(std::size_t i, std::size_t j) const 
     const Vec3 d = position_[j] - position_[i];
     const float squared = dot(d, d), reach = k_gap * static_cast<float>(weights_.step);
     if (squared > reach * reach * std::max(spacing_[i], spacing_[j])) return std::nullopt;
-    // The squared angle between the normals, and that of the line to either surface, for small angles.
+    // Compute squared angles, for small angles: between the normals, and between the line and either surface.
     const float bend = 2 * std::max(0.0f, 1 - dot(normal_[i], normal_[j]));
     const float above = dot(normal_[i], d), below = dot(normal_[j], d);
     const float rise = squared > 0 ? std::max(above * above, below * below) / squared : 0;
@@ -198,7 +198,7 @@ float PageDenoiser::weight(std::size_t i, std::size_t j) const {
 }
 
 void PageDenoiser::average_all() {
-    // Ratios, irradiance, error; then the brightness, and the ratios of the irradiance.
+    // Filter ratios, irradiance and error; then the brightness, and the ratios of the irradiance.
     const std::size_t channels = channels_.count();
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, channels + 6, 1), [&](const auto& range) {
         std::vector<float>& work = work_.local();

@@ -1,4 +1,4 @@
-// Dilation: what was not baked is filled from its nearest neighbours that were.
+// Dilation: fills texels that were not baked from their nearest baked neighbours.
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
@@ -9,19 +9,19 @@
 namespace lobelia {
 namespace {
 
-/// The texels of some rows that are filled, and from where: target i from sources [first[i], first[i + 1]).
+/// The filled texels of some rows and their sources: target[i] is the mean of sources [first[i], first[i + 1]).
 struct Fillings {
     std::vector<std::uint32_t> target, first{0}, sources;
 };
 
-/// Rows done at once.
+/// Rows per task.
 constexpr std::size_t k_rows = 32;
 
-/// Marks texels that have a usable one within `radius` in x and in y, so that the others need no search.
+/// Marks texels with a usable texel within `radius` in x and in y; the others need no search.
 std::vector<std::uint8_t> near_usable(const LightmapPage& page, const DilateOptions& options) {
     const std::size_t w = page.width, h = page.height;
     std::vector<std::uint8_t> along_rows(page.size()), result(page.size());
-    // A texel is reached if the last usable one before it, or the next one after it, is near enough.
+    // Mark a texel if the last usable one before it, or the next one after it, is within the radius.
     const auto spread = [&](std::size_t count, const auto& usable, const auto& mark) {
         std::size_t since = options.radius + 1;
         for (std::size_t i = 0; i < count; ++i) {
@@ -68,7 +68,7 @@ std::vector<Fillings> find_fillings(const LightmapPage& page, const DilateOption
     return result;
 }
 
-/// Sources are never targets, so that texels can be filled in any order.
+/// Fills the targets of a plane. Sources are never targets, so the order does not matter.
 void fill(const Fillings& fillings, std::vector<float>& plane) {
     for (std::size_t i = 0; i < fillings.target.size(); ++i) {
         float sum = 0;

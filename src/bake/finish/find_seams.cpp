@@ -1,4 +1,4 @@
-// Edges of one place joined in pairs; then what is left, cut at T-junctions, once more.
+// Joins edges at the same position in pairs; splits the remaining ones at T-junctions and joins again.
 #include "bake/finish/find_seams.h"
 
 #include "bake/place/split_edges.h"
@@ -6,7 +6,7 @@
 namespace lobelia {
 namespace {
 
-/// Cosine of the largest angle between normals of one edge: 10 degrees.
+/// Cosine of the maximum angle between normals along one edge: 10 degrees.
 constexpr float k_least_cosine = 0.98481f;
 
 SeamSide side_of(const Atlas& atlas, const EdgePiece& piece) {
@@ -29,7 +29,7 @@ SeamSide side_of(const Atlas& atlas, const EdgePiece& piece) {
             {normal(piece.at_low), normal(piece.at_high)}};
 }
 
-/// Whether both are one and the same edge on the page: the inside of a chart.
+/// Returns whether both sides are the same edge on the page: the interior of a chart.
 bool same_on_page(const Atlas& atlas, const SeamSide& a, const SeamSide& b) {
     constexpr float k_near = 1e-2f;  // [texels]
     const auto near = [](Vec2 p, Vec2 q) { return std::hypot(p.x - q.x, p.y - q.y) < k_near; };
@@ -37,8 +37,8 @@ bool same_on_page(const Atlas& atlas, const SeamSide& a, const SeamSide& b) {
            near(a.ends[1], b.ends[1]);
 }
 
-/// Joins each piece to the nearest one before it at the same place whose normals agree, so that three or more become a
-/// chain. Returns the pieces that found nobody.
+/// Joins each piece to the nearest earlier one at the same position whose normals agree, so that three or more form a
+/// chain. Returns the pieces without a partner.
 std::vector<EdgePiece> join(const Atlas& atlas, std::span<const EdgePiece> pieces, StopFlag stop,
                             std::vector<Seam>& seams) {
     constexpr std::size_t k_most_back = 8;
@@ -73,7 +73,7 @@ std::vector<Seam> find_seams(const Atlas& atlas, float tolerance, StopFlag stop)
     const std::vector<EdgePiece> left = join(atlas, pieces, stop, seams);
     join(atlas, split_edges(world, left, tolerance, stop), stop, seams);
 
-    // What is longer than any page is no edge that anybody sees.
+    // Ignore edges longer than a page.
     const auto longest = static_cast<double>(atlas.width() + atlas.height());
     std::erase_if(seams, [&](const Seam& s) { return s.texels() > longest; });
     return seams;

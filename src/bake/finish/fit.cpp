@@ -1,4 +1,4 @@
-// From coefficients that are linear in the light to those of a fitted basis.
+// Converts coefficients that are linear in the light to those of a fitted basis.
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
@@ -15,7 +15,7 @@ LightmapPage fitted_page(const LightmapPage& from, const FittedBasis& basis, Sto
     LightmapPage to(from.width, from.height, target.count());
     to.chart = from.chart;
     to.validity = from.validity;
-    // What is not a coefficient stays.
+    // Copy the channels that are not coefficients.
     for (std::size_t k = 0; k < 4; ++k) to.planes[target.irradiance(0) + k] = from.planes[source.irradiance(0) + k];
     constexpr std::size_t k_grain = 256;
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, from.size(), k_grain), [&](const auto& range) {

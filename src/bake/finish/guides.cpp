@@ -1,4 +1,4 @@
-// What guides the denoiser: the surface at each texel.
+// Computes the denoiser's guides: the surface at each texel.
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
 

@@ -1,4 +1,4 @@
-// The nearest usable texels, by a list of offsets in the order of their length.
+// Searches for the nearest usable texels by a list of offsets sorted by length.
 #include "bake/finish/nearest.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// From where a texel is filled that holds nothing: its nearest neighbours that hold something.
+// The nearest usable neighbours of a texel, for filling it.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace lobelia {
 
-/// Whether a texel holds something fit to be read: baked, and valid.
+/// Returns whether a texel is baked and valid.
 [[nodiscard]] inline bool is_usable(const LightmapPage& page, std::size_t i, float least_validity) {
     return page.chart[i] != 0 && page.validity[i] >= least_validity;
 }
@@ -20,8 +20,8 @@ class NearestTexels {
     NearestTexels(const LightmapPage& page, std::size_t radius, float least_validity,
                   std::span<const std::uint8_t> excluded = {});
 
-    /// Replaces `out` by the texels whose mean fills texel i: all usable ones at the least distance, of its own chart
-    /// if it has one and there are any. Itself if it is usable; none if there are none within the radius.
+    /// Replaces `out` by the texels whose mean fills texel i: all usable ones at the minimum distance, of its own chart
+    /// if it has one and there are any. Only i itself if it is usable; empty if none are within the radius.
     void find(std::size_t i, std::vector<std::uint32_t>& out) const;
 
   private:
@@ -38,7 +38,7 @@ class NearestTexels {
     const LightmapPage& page_;
     std::span<const std::uint8_t> excluded_;
     float least_validity_;
-    std::vector<Offset> offsets_;  ///< by distance
+    std::vector<Offset> offsets_;  ///< sorted by distance
 };
 
 }  // namespace lobelia

@@ -1,4 +1,4 @@
-// Rays across seams.
+// Tests for occluders by rays across seams.
 #include "bake/finish/seam_walls.h"
 
 #include <cmath>
@@ -8,16 +8,16 @@
 namespace lobelia {
 namespace {
 
-/// Height of the rays above the surface, and how far they reach beyond the edge, over the length within the triangle.
-/// Equal, they clear the surface at edges that bend by less than 45 degrees.
+/// Height of the rays above the surface, and their reach beyond the edge, over the length within the triangle. Equal,
+/// the rays clear the surface at edges that bend by less than 45 degrees.
 constexpr float k_height = 0.02f;
 
 /// One side of a seam at one point: directions are unit.
 struct SideAt {
     Vec3 edge;
-    Vec3 normal;  ///< of the triangle
-    Vec3 inward;  ///< across the edge, into the triangle
-    float reach;  ///< a texel's width, as far as the triangle reaches [m]
+    Vec3 normal;  ///< normal of the triangle
+    Vec3 inward;  ///< perpendicular to the edge, into the triangle
+    float reach;  ///< a texel's width, limited by the triangle's extent [m]
 };
 
 SideAt side_at(const Atlas& atlas, const SeamSide& side, float s) {

@@ -1,4 +1,4 @@
-// Seams closed by least squares over the texels that bilinear filtering reads along them (Iwanicki 2013).
+// Closes seams by least squares over the texels that bilinear filtering uses along them (Iwanicki 2013).
 #include <oneapi/tbb/parallel_for.h>
 
 #include <Eigen/IterativeLinearSolvers>
@@ -18,10 +18,10 @@ namespace {
 /// Points along a seam [per texel], and the maximum over all seams.
 constexpr double k_points_per_texel = 2;
 constexpr double k_most_points = 1 << 21;
-/// Points whose footprint is covered to a smaller fraction are ignored.
+/// Points with a smaller covered fraction of their footprint are ignored.
 constexpr float k_least_footprint = 0.25f;
 
-/// A texel, numbered through all pages, and its weight.
+/// A texel, numbered across all pages, and its weight.
 struct Share {
     std::uint64_t texel = 0;
     float weight = 0;
@@ -43,7 +43,7 @@ class Footprints {
     /// Appends the shares of the value of chart `chart` at point `p`; their weights sum to `total`. Returns false, and
     /// appends nothing, where too little of the footprint holds light.
     bool append(std::size_t page, std::uint32_t chart, Vec2 p, float total, std::vector<Share>& out);
-    /// Returns the page of a texel, and its number there.
+    /// Returns the page of a texel, and its index there.
     [[nodiscard]] std::pair<std::size_t, std::size_t> place(std::uint64_t texel) const {
         const auto page = std::upper_bound(first_.begin(), first_.end(), texel) - first_.begin() - 1;
         return {static_cast<std::size_t>(page), texel - first_[static_cast<std::size_t>(page)]};
@@ -52,7 +52,7 @@ class Footprints {
   private:
     std::span<const LightmapPage> pages_;
     std::vector<NearestTexels> nearest_;
-    std::vector<std::uint64_t> first_{0};  ///< number of each page's first texel
+    std::vector<std::uint64_t> first_{0};  ///< index of each page's first texel
     std::vector<std::uint32_t> sources_;
 };
 
@@ -84,7 +84,7 @@ bool Footprints::append(std::size_t page_index, std::uint32_t chart, Vec2 p, flo
 
 using SparseMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
-/// Differences along all seams as rows over the texels near them; below, one row for the change of each texel.
+/// Linear system: one row for each difference along a seam; below, one row for the change of each texel.
 struct SeamSystem {
     std::vector<std::uint64_t> texels;  ///< the unknowns
     std::vector<double> weight;         ///< of each difference: the square of its row's scale
@@ -95,17 +95,17 @@ struct SeamSystem {
 struct SeamDifferences {
     std::vector<Share> shares;
     std::vector<std::size_t> first{0};
-    std::vector<double> weight;  ///< the texels of the seam that each stands for
+    std::vector<double> weight;  ///< length [texels] that each point represents
 };
 
-/// A point of a seam, at the fraction `s` of its length, and the length that it stands for [texels].
+/// A point of a seam, at the fraction `s` of its length, and the length that it represents [texels].
 struct SeamPoint {
     const Seam* seam = nullptr;
     float s = 0;
     double weight = 0;
 };
 
-/// Returns points along all seams, without those where something stands on the seam.
+/// Returns points along all seams, without those under a surface.
 std::vector<SeamPoint> points_along(const Atlas& atlas, std::span<const Seam> seams, const PathTracer* tracer,
                                     StopFlag stop) {
     double length = 0;
@@ -149,7 +149,7 @@ SeamDifferences find_differences(const Atlas& atlas, std::span<const SeamPoint> 
 }
 
 SeamSystem make_system(SeamDifferences differences, float change_weight) {
-    // Number the texels in their order.
+    // Number the texels in ascending order.
     SeamSystem system;
     const std::vector<Share>& shares = differences.shares;
     for (const Share& share : shares) system.texels.push_back(share.texel);
@@ -176,8 +176,8 @@ SeamSystem make_system(SeamDifferences differences, float change_weight) {
     return system;
 }
 
-/// The least and the largest value that each unknown may take: those of the texels that its differences read. Least
-/// squares overshoot; within these bounds light that was never negative stays so.
+/// Minimum and maximum value of each unknown: those of the texels that its differences use. Least squares overshoot;
+/// within these bounds non-negative light stays non-negative.
 struct SeamBounds {
     std::vector<double> least, most;
 };
@@ -199,7 +199,7 @@ SeamBounds bounds_of(const SeamSystem& system, const Eigen::VectorXd& values) {
     return bounds;
 }
 
-/// Eigen's preconditioner for least squares, which asks at each iteration whether to go on.
+/// Eigen's preconditioner for least squares; checks the stop flag at each iteration.
 class StoppablePreconditioner : public Eigen::LeastSquareDiagonalPreconditioner<double> {
   public:
     using Base = Eigen::LeastSquareDiagonalPreconditioner<double>;
@@ -214,7 +214,7 @@ class StoppablePreconditioner : public Eigen::LeastSquareDiagonalPreconditioner<
     StopFlag stop_;
 };
 
-/// Sums of squared differences before and after, each point by its weight.
+/// Weighted sums of squared differences before and after.
 struct Squared {
     double before = 0, after = 0;
 };
@@ -238,7 +238,7 @@ Squared close(std::span<LightmapPage> pages, const Footprints& footprints, const
     solver.compute(system.matrix);
     Eigen::VectorXd change = solver.solve(wanted);
 
-    // Keep to the bounds, which are floats: a value within them is unchanged.
+    // Clamp to the bounds, which are floats: values within them are unchanged.
     const SeamBounds bounds = bounds_of(system, values);
     for (std::size_t i = 0; i < system.texels.size(); ++i) {
         const auto [page, texel] = footprints.place(system.texels[i]);
@@ -263,7 +263,7 @@ SeamReport close_seams(std::span<LightmapPage> pages, const PageChannels& channe
         std::max(options.weight, 1e-6f));
     if (system.weight.empty()) return report;
 
-    // Close all channels but the error, which is not light.
+    // Close all channels except the error, which is not light.
     std::vector<Squared> squared(channels.count());
     tbb::parallel_for(std::size_t{0}, channels.count(), [&](std::size_t channel) {
         if (channel != channels.error()) squared[channel] = close(pages, footprints, system, channel, options.stop);

@@ -1,4 +1,4 @@
-// Finishing steps, chosen by the encoding.
+// Finishing steps, selected by the encoding.
 #include "bake/finish/steps.h"
 
 #include <oneapi/tbb/parallel_for.h>
@@ -34,8 +34,8 @@ void transform(std::span<LightmapPage> pages, const PageChannels& channels, cons
         });
 }
 
-/// Denoises pages that hold coefficients of a basis that others are fitted to. Such a fit reads moments, and they are
-/// filtered in place of the coefficients, which may be large and cancel each other: filtered apart, they would not.
+/// Denoises pages that hold coefficients of a basis that others are fitted to. Such a fit uses moments, so the moments
+/// are filtered: the coefficients may be large and cancel, and filtered separately they would not cancel.
 void denoise_moments(std::span<LightmapPage> pages, const PageChannels& channels, const Guides& guides,
                      const LinearBasis& basis, const DenoiseOptions& options) {
     const std::vector<double> gram = basis.gram(), integrals = basis.integrals();

@@ -1,4 +1,4 @@
-// The finishing stage as a bake runs it: which step applies to which coefficients.
+// The finishing stage as a bake runs it: selects the steps that apply to the coefficients.
 #pragma once
 
 #include "bake/finish/finish.h"
@@ -10,7 +10,7 @@ namespace lobelia {
 [[nodiscard]] bool denoise_pages(std::span<LightmapPage> pages, const BakeEncoding& encoding, const Guides& guides,
                                  StopFlag stop = {});
 
-/// Replaces the coefficients that pages hold until they are finished by those of the codec, where the two differ.
+/// Replaces the intermediate coefficients of the pages by those of the codec, if they differ.
 void fit_codec(std::vector<LightmapPage>& pages, const BakeEncoding& encoding, StopFlag stop = {});
 
 }  // namespace lobelia

@@ -1,4 +1,4 @@
-// The codec of a bake, and how its encoder is fed.
+// The codec of a bake, and the feeding of its encoder.
 #include "bake/gather/encoding.h"
 
 namespace lobelia {
@@ -7,7 +7,8 @@ Result<BakeEncoding> BakeEncoding::make(const BakeOptions& options) {
     BakeEncoding result;
     const bool by_samples = options.shard.by == Shard::By::samples;
     if (by_samples && options.target_error)
-        return Error{"--target-error does not work with shards of samples: no shard knows the errors of the others"};
+        return Error{
+            "--target-error cannot be combined with shards of samples: no shard knows the errors of the others"};
     if (options.codec.empty()) return result;
     auto codec = make_codec(options.codec);
     if (!codec) return codec.error();

@@ -42,13 +42,13 @@ void make_starts(const Receiver& receiver, std::uint32_t first, DirectionChoice 
     }
 }
 
-/// Places of a receiver's samples: of its paths, of the dark below its horizon, and of direct light.
+/// Index ranges of a receiver's samples: paths, black samples below its horizon, and direct light.
 struct Places {
     Samples* samples;
     std::size_t paths, dark, sources;
 };
 
-/// Turns the light that arrived at one receiver into samples and an estimate of its irradiance.
+/// Converts the light that arrived at one receiver into samples and an estimate of its irradiance.
 class Receiving {
   public:
     Receiving(const Receiver& receiver, const GatherOptions& options, Gathered& gathered, const Places& places)
@@ -89,7 +89,8 @@ class Receiving {
     }
 
   private:
-    /// Weight of radiance in the irradiance: the cosine, or for probes that of pi times the mean radiance.
+    /// Returns the weight of radiance in the irradiance: the cosine; for probes, such that the sum is pi times the mean
+    /// radiance.
     [[nodiscard]] float weight_of(Vec3 direction) const {
         return receiver_.domain == Domain::sphere ? 0.25f : std::max(0.0f, dot(direction, receiver_.normal));
     }

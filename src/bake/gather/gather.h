@@ -32,8 +32,8 @@ struct Gathered {
 };
 
 /// Samples of all receivers, one receiver after another, the same number each, in two parts: path directions, each with
-/// a solid angle of 1 if directions are uniform, and in general such that the mean over many is 1; and direct light,
-/// with a tiny solid angle (k_splat_share) and a radiance such that their product is exact.
+/// a solid angle of 1 if directions are uniform, and otherwise with a mean of 1; and direct light, with a tiny solid
+/// angle (k_splat_share) and a radiance such that their product is exact.
 class GatherBuffer {
   public:
     [[nodiscard]] SampleView directions(std::size_t receiver) const {

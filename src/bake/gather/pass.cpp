@@ -1,4 +1,4 @@
-// One pass over receivers: gather, encode, keep count.
+// One pass over receivers: gather, encode, update statistics.
 #include "bake/gather/pass.h"
 
 #include <algorithm>
@@ -9,7 +9,7 @@ namespace lobelia {
 namespace {
 
 /// Receivers gathered at a time: enough paths to fill the tracer, few enough for their samples to stay in the cache.
-constexpr std::size_t k_batch = 64;
+constexpr std::size_t k_receivers_at_once = 64;
 
 }  // namespace
 
@@ -39,11 +39,11 @@ void PassWorker::run(std::span<const Receiver> receivers, const StateLayout& lay
     // An error estimate from fewer passes than this is itself too uncertain to stop on.
     constexpr float k_fewest_passes = 4;
 
-    for (std::size_t begin = 0; begin < receivers.size(); begin += k_batch) {
+    for (std::size_t begin = 0; begin < receivers.size(); begin += k_receivers_at_once) {
         // Leave out receivers that are done.
         batch_.clear();
         active_.clear();
-        for (std::size_t i = begin; i < std::min(begin + k_batch, receivers.size()); ++i) {
+        for (std::size_t i = begin; i < std::min(begin + k_receivers_at_once, receivers.size()); ++i) {
             const auto record = layout.record(state_of(i));
             if (options.target_error && record[StateLayout::k_passes] >= k_fewest_passes &&
                 summary(record, options.samples.count).relative_error() < *options.target_error)

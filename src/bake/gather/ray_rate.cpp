@@ -1,4 +1,4 @@
-// Ray rate, measured.
+// Measures the ray rate.
 #include "bake/gather/ray_rate.h"
 
 #include <oneapi/tbb/enumerable_thread_specific.h>

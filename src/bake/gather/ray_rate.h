@@ -1,4 +1,4 @@
-// How fast this machine traces a scene's light: a short trial.
+// Measures how fast this machine traces a scene: a short trial.
 #pragma once
 
 #include "bake/gather/gather.h"

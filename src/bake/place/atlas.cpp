@@ -1,4 +1,4 @@
-// The atlas: layout, charts, and which triangles lie on which tile.
+// The atlas: layout, charts, and the triangles of each tile.
 #include "bake/place/atlas.h"
 
 #include <fmt/format.h>
@@ -12,15 +12,15 @@
 namespace lobelia {
 namespace {
 
-/// Of a page [texels] and of all pages together.
+/// Limits: side of a page, and texels of all pages.
 constexpr std::size_t k_most_side = 16384;
 constexpr std::size_t k_most_texels = std::size_t{1} << 31;
-/// What rasterisation may cost: texels looked at, and triangles listed for tiles. A million triangles that fill a page
-/// of 4096 x 4096 once take less than a hundredth of either.
+/// Limits of rasterisation: texels tested, and triangles listed for tiles. A million triangles that fill a page of 4096
+/// x 4096 once take less than a hundredth of either.
 constexpr std::uint64_t k_most_tests = std::uint64_t{1} << 32;
 constexpr std::uint64_t k_most_listed = std::uint64_t{1} << 26;
 
-/// Beyond this no UV matters [texels]; a float of this size can be squared and summed in double precision.
+/// Clamp for UVs [texels]; a float of this size can be squared and summed in double precision.
 constexpr float k_far = 1e18f;
 
 std::size_t tiles_along(std::size_t texels) { return (texels + k_tile - 1) / k_tile; }
@@ -32,9 +32,9 @@ Status check(const World& world, const AtlasOptions& options) {
     if (options.padding > k_most_side)
         return Error{fmt::format("padding of {} texels: at most {}", options.padding, k_most_side)};
     if (const auto& d = options.texels_per_metre; d && !(*d > 0 && std::isfinite(*d)))
-        return Error{fmt::format("{} texels per metre: it must be more than 0", *d)};
+        return Error{fmt::format("{} texels per metre: must be above 0", *d)};
     if (options.texels_per_metre && options.layout == AtlasOptions::Layout::shared)
-        return Error{"texels per metre size each object for itself, and so need the packed layout"};
+        return Error{"texels per metre set the size of each object, which requires the packed layout"};
     if (std::none_of(world.has_lightmap_uv.begin(), world.has_lightmap_uv.end(), [](auto has) { return has != 0; }))
         return Error{"no object has lightmap UVs; `lobelia unwrap` makes them"};
     return Done{};
@@ -62,7 +62,8 @@ Status Atlas::find_placements(const AtlasOptions& options) {
     const auto& has_uv = world_->has_lightmap_uv;
     if (std::count_if(has_uv.begin(), has_uv.end(), [](auto has) { return has != 0; }) == 1)
         return place(options, Layout::shared);
-    // UVs that overlap too often for `place` overlap between objects, or it will refuse them once more.
+    // Pack separate rectangles if objects overlap, or if the UVs overlap too often for `place`: where the overlap is
+    // within one object, it fails again and reports the error.
     if (const Status status = place(options, Layout::shared); status && !objects_overlap()) return status;
     return place(options, Layout::packed);
 }
@@ -77,7 +78,7 @@ Status Atlas::place(const AtlasOptions& options, AtlasOptions::Layout layout) {
         result = std::move(*packed);
     }
     if (result.pages > k_most_texels / (width_ * height_))
-        return Error{fmt::format("the atlas would have {} pages of {} x {} texels: ask for fewer texels per metre",
+        return Error{fmt::format("the atlas would have {} pages of {} x {} texels: choose fewer texels per metre",
                                  result.pages, width_, height_)};
     layout_ = layout;
     placements_ = std::move(result.placements);
@@ -129,7 +130,7 @@ Status Atlas::fill_tiles() {
             }
     };
 
-    // Count what each tile gets, and what that will cost.
+    // Count the triangles of each tile, and their cost.
     std::vector<std::uint64_t> first(count + 1);
     std::uint64_t tests = 0, listed = 0;
     for (std::size_t t = 0; t < world_->triangles.size(); ++t) {
@@ -140,7 +141,7 @@ Status Atlas::fill_tiles() {
         });
         if (tests > k_most_tests || listed > k_most_listed)
             return Error{
-                fmt::format("the lightmap UVs overlap many times over (up to {}): `lobelia unwrap` makes others",
+                fmt::format("the lightmap UVs overlap many times over (up to {}): `lobelia unwrap` makes new ones",
                             world_->name_of(world_->object[t]))};
     }
 
@@ -156,13 +157,13 @@ Status Atlas::fill_tiles() {
 }
 
 bool Atlas::objects_overlap() const {
-    // The margin forgives borders that float32 puts a little over each other.
+    // The margin tolerates borders that overlap by float32 rounding.
     constexpr double k_margin = 1e-3;
     std::vector<std::uint32_t> owner(k_tile * k_tile);
     for (std::size_t tile = 0; tile < tiles(); ++tile) {
         const TexelBox box = box_of_tile(tile);
-        constexpr std::uint32_t k_nobody = 0xffffffff;
-        std::fill(owner.begin(), owner.end(), k_nobody);
+        constexpr std::uint32_t k_no_triangle = 0xffffffff;
+        std::fill(owner.begin(), owner.end(), k_no_triangle);
         for (const std::uint32_t t : triangles_of_tile(tile)) {
             stop_.check();
             const PageTriangle triangle(texel_triangle(t));
@@ -171,7 +172,7 @@ bool Atlas::objects_overlap() const {
                 for (int x = part.x0; x < part.x1; ++x) {
                     std::uint32_t& other = owner[static_cast<std::size_t>(y - box.y0) * k_tile + (x - box.x0)];
                     if (other == world_->object[t] || !triangle.contains({x + 0.5, y + 0.5}, k_margin)) continue;
-                    if (other != k_nobody) return true;
+                    if (other != k_no_triangle) return true;
                     other = world_->object[t];
                 }
         }

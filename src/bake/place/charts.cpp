@@ -4,10 +4,12 @@
 #include <bit>
 #include <numeric>
 
+#include "core/math/hash.h"
+
 namespace lobelia {
 namespace {
 
-/// Disjoint sets with path halving; the smallest member stands for each, so that the order of unions does not matter.
+/// Disjoint sets with path halving; the smallest member represents each, so that the order of unions does not matter.
 class DisjointSets {
   public:
     explicit DisjointSets(std::size_t size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), 0u); }
@@ -26,7 +28,7 @@ class DisjointSets {
     std::vector<std::uint32_t> parent_;
 };
 
-/// What makes two vertices one: object, position, UV. Adding 0 makes -0 and 0 the same bits.
+/// Vertices with equal keys are one: object, position, UV. Adding 0 gives -0 and 0 the same bits.
 using Key = std::array<std::uint32_t, 6>;
 Key key_of(const World& world, std::uint32_t object, std::uint32_t vertex) {
     const Vec3 p = world.positions[vertex];
@@ -35,23 +37,14 @@ Key key_of(const World& world, std::uint32_t object, std::uint32_t vertex) {
     return {object, bits(p.x), bits(p.y), bits(p.z), bits(uv.x), bits(uv.y)};
 }
 
-std::uint64_t hash(const Key& key) {
-    std::uint64_t h = 0x9e3779b97f4a7c15u;
-    for (const std::uint32_t word : key) {
-        h = (h ^ word) * 0xff51afd7ed558ccdu;
-        h ^= h >> 32;
-    }
-    return h;
-}
-
-/// Finds the first vertex that had the same key. Open addressing: a table of at least twice as many places.
+/// Finds the first vertex with the same key. Open addressing: a table of at least twice as many entries.
 class Welder {
   public:
     explicit Welder(std::size_t vertices) : keys_(vertices), table_(std::bit_ceil(2 * vertices + 2), k_free) {}
     [[nodiscard]] std::uint32_t first_like(std::uint32_t vertex, const Key& key) {
         const std::size_t mask = table_.size() - 1;
         keys_[vertex] = key;
-        for (std::size_t i = hash(key) & mask;; i = (i + 1) & mask) {
+        for (std::size_t i = hash_of(key) & mask;; i = (i + 1) & mask) {
             if (table_[i] == k_free) table_[i] = vertex;
             if (keys_[table_[i]] == key) return table_[i];
         }
@@ -66,7 +59,7 @@ class Welder {
 }  // namespace
 
 std::vector<std::uint32_t> find_charts(const World& world, std::uint32_t none, StopFlag stop) {
-    // Unite the vertices of each triangle, and vertices with those that they repeat.
+    // Unite the vertices of each triangle, and vertices with equal keys.
     DisjointSets sets(world.positions.size());
     Welder welder(world.positions.size());
     for (std::size_t t = 0; t < world.triangles.size(); ++t) {
@@ -78,7 +71,7 @@ std::vector<std::uint32_t> find_charts(const World& world, std::uint32_t none, S
         }
     }
 
-    // Number the sets as triangles name them.
+    // Number the sets in the order of their first triangles.
     std::vector<std::uint32_t> number(world.positions.size(), none), charts(world.triangles.size(), none);
     std::uint32_t count = 0;
     for (std::size_t t = 0; t < world.triangles.size(); ++t) {

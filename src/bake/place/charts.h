@@ -8,9 +8,9 @@
 
 namespace lobelia {
 
-/// Chart of each triangle, counted from 0 in the order of their first triangles: triangles of one object are of one
-/// chart if they share a vertex, or vertices of the same position and lightmap UV. `none` where the object has no
-/// lightmap UVs. Throws Stopped.
+/// Returns the chart of each triangle, counted from 0 in the order of their first triangles: triangles of one object
+/// are in one chart if they share a vertex, or vertices of the same position and lightmap UV. `none` if the object has
+/// no lightmap UVs. Throws Stopped.
 [[nodiscard]] std::vector<std::uint32_t> find_charts(const World& world, std::uint32_t none, StopFlag stop = {});
 
 }  // namespace lobelia

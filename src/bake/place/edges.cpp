@@ -1,4 +1,4 @@
-// Welding by a grid of cells, hashed; edges sorted by their welded ends.
+// Welds vertices by a hashed grid; sorts edges by their welded ends.
 #include "bake/place/edges.h"
 
 #include <oneapi/tbb/parallel_sort.h>
@@ -8,32 +8,25 @@
 #include <cmath>
 #include <tuple>
 
+#include "core/math/hash.h"
+
 namespace lobelia {
 namespace {
 
-constexpr std::uint32_t k_nobody = 0xffffffff;
+constexpr std::uint32_t k_no_vertex = 0xffffffff;
 
 using Cell = std::array<std::int64_t, 3>;
 
-std::uint64_t hash(const Cell& cell) {
-    std::uint64_t h = 0x9e3779b97f4a7c15u;
-    for (const std::int64_t i : cell) {
-        h = (h ^ static_cast<std::uint64_t>(i)) * 0xff51afd7ed558ccdu;
-        h ^= h >> 32;
-    }
-    return h;
-}
-
-/// Welded vertices by the cell that they lie in: chains in a table of hashes.
+/// Welded vertices by cell: chains in a hash table.
 class Grid {
   public:
-    /// Cells are twice as wide as the tolerance, so that what is near lies in one of eight.
+    /// Makes cells twice as wide as the tolerance, so that all near vertices lie in eight cells.
     Grid(std::size_t vertices, double tolerance)
-        : width_(2 * tolerance), first_(std::bit_ceil(2 * vertices + 1), k_nobody), next_(vertices, k_nobody) {}
+        : width_(2 * tolerance), first_(std::bit_ceil(2 * vertices + 1), k_no_vertex), next_(vertices, k_no_vertex) {}
 
-    /// The chain of the cell that holds `p` moved by `shift` half cells.
+    /// Returns the chain of the cell that holds `p` moved by `shift` half cells.
     [[nodiscard]] std::uint32_t& chain(Vec3 p, const Cell& shift) {
-        return first_[hash(cell(p, shift)) & (first_.size() - 1)];
+        return first_[hash_of(cell(p, shift)) & (first_.size() - 1)];
     }
     [[nodiscard]] std::uint32_t next(std::uint32_t v) const { return next_[v]; }
     void insert(std::uint32_t v, Vec3 p) {
@@ -44,7 +37,7 @@ class Grid {
 
   private:
     [[nodiscard]] Cell cell(Vec3 p, const Cell& shift) const {
-        // Beyond 2^52 cells, positions are farther apart than the tolerance anyhow.
+        // Beyond 2^52 cells, different positions are farther apart than the tolerance.
         const auto along = [&](float x, std::int64_t s) {
             return static_cast<std::int64_t>(
                 std::clamp(std::floor(x / width_ + 0.5 * static_cast<double>(s)), -0x1p52, 0x1p52));
@@ -60,22 +53,22 @@ class Grid {
 
 std::vector<std::uint32_t> weld_positions(const World& world, float tolerance, StopFlag stop) {
     const auto count = static_cast<std::uint32_t>(world.positions.size());
-    // Zero would be a grid without cells; a float near 1 is not finer than this.
+    // Keep the grid's cells above zero width; floats near 1 are not finer than this.
     const float near = std::max(tolerance, 1e-8f);
     Grid grid(count, near);
     std::vector<std::uint32_t> welded(count);
     for (std::uint32_t v = 0; v < count; ++v) {
         stop.check();
         const Vec3 p = world.positions[v];
-        // Look into the eight cells that a cube of twice the tolerance may touch.
-        std::uint32_t found = k_nobody;
+        // Search the eight cells that a cube of twice the tolerance may touch.
+        std::uint32_t found = k_no_vertex;
         for (std::int64_t corner = 0; corner < 8; ++corner) {
             const Cell shift{(corner & 1) * 2 - 1, (corner >> 1 & 1) * 2 - 1, (corner >> 2) * 2 - 1};
-            for (std::uint32_t u = grid.chain(p, shift); u != k_nobody; u = grid.next(u))
+            for (std::uint32_t u = grid.chain(p, shift); u != k_no_vertex; u = grid.next(u))
                 if (u < found && length(world.positions[u] - p) <= near) found = u;
         }
-        welded[v] = found == k_nobody ? v : found;
-        if (found == k_nobody) grid.insert(v, p);
+        welded[v] = found == k_no_vertex ? v : found;
+        if (found == k_no_vertex) grid.insert(v, p);
     }
     return welded;
 }

@@ -1,4 +1,4 @@
-// Edges of the world's triangles that lie at the same place: what seams, and checks of meshes, are made of.
+// Edges of the world's triangles at the same position, for seams and mesh checks.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,7 @@
 
 namespace lobelia {
 
-/// For each vertex the first one that lies within `tolerance` [m] of it. Found by hashing, in linear time.
-/// Throws Stopped.
+/// Returns for each vertex the first one within `tolerance` [m] of it. Uses hashing; linear time. Throws Stopped.
 [[nodiscard]] std::vector<std::uint32_t> weld_positions(const World& world, float tolerance, StopFlag stop = {});
 
 /// Edge `side` (from corner `side` to the next) of a triangle; `low` and `high` are its welded ends.
@@ -20,7 +19,7 @@ struct WorldEdge {
     [[nodiscard]] bool same_place(const WorldEdge& other) const { return low == other.low && high == other.high; }
 };
 
-/// All edges whose ends differ, those at the same place next to each other, then by triangle and side.
+/// Returns all edges whose ends differ, sorted by position, then by triangle and side.
 [[nodiscard]] std::vector<WorldEdge> sorted_edges(const World& world, const std::vector<std::uint32_t>& welded);
 
 }  // namespace lobelia

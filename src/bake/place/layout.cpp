@@ -1,4 +1,4 @@
-// Objects' sizes and places on pages.
+// Sizes of objects and their placement on pages.
 #include "bake/place/layout.h"
 
 #include <fmt/format.h>
@@ -11,11 +11,11 @@
 namespace lobelia {
 namespace {
 
-/// What matters of an object: the part of the UV square that it uses, and how large that is in the world.
+/// The part of the UV square that an object uses, and its size in the world.
 struct Extent {
     std::uint32_t object = 0;
-    double x0 = 1, y0 = 1, x1 = 0, y1 = 0;  ///< cut to [0, 1]
-    double metres_per_uv = 0;               ///< root of world area over UV area; 0 where either has none
+    double x0 = 1, y0 = 1, x1 = 0, y1 = 0;  ///< clipped to [0, 1]
+    double metres_per_uv = 0;               ///< root of world area over UV area; 0 if either is 0
 };
 
 Extent extent_of(const World& world, std::uint32_t object) {
@@ -45,7 +45,8 @@ Extent extent_of(const World& world, std::uint32_t object) {
     return result;
 }
 
-/// Texels that the object needs along an axis of `extent` UV units; at least one. The slack forgives rounding.
+/// Returns the texels that the object needs along an axis of `extent` UV units; at least one. The slack absorbs
+/// rounding.
 double texels_for(double extent, double scale) { return std::max(1.0, std::ceil(extent * scale - 1e-3)); }
 
 double scale_at(const Extent& e, double texels_per_metre) {
@@ -92,14 +93,14 @@ ObjectPlacements packed_at(const World& world, std::span<const Extent> extents, 
     return result;
 }
 
-/// The largest density, to about one in a thousand, at which all lie on one page.
+/// Returns the maximum density, to about one in a thousand, at which all objects fit one page.
 double density_for_one_page(std::span<const Extent> extents, const AtlasOptions& options, StopFlag stop) {
-    // Begin where a page of nothing but rectangles would end.
+    // Start at the density whose rectangles fill a page completely.
     double area = 0;
     for (const Extent& e : extents) area += e.metres_per_uv * e.metres_per_uv * (e.x1 - e.x0) * (e.y1 - e.y0);
     double high = area > 0 ? std::sqrt(static_cast<double>(options.width * options.height) / area) : 1, low = 0;
     for (int step = 0; step < 10; ++step) {
-        // Halve until something fits, then bisect.
+        // Halve until the objects fit, then bisect.
         const double middle = low > 0 ? (low + high) / 2 : high / 2;
         const bool one_page = std::all_of(extents.begin(), extents.end(),
                                           [&](const Extent& e) { return fits(e, scale_at(e, middle), options); }) &&
@@ -133,11 +134,11 @@ Result<ObjectPlacements> packed_layout(const World& world, const AtlasOptions& o
         options.texels_per_metre ? *options.texels_per_metre : density_for_one_page(extents, options, stop);
     for (const Extent& e : extents)
         if (const double scale = scale_at(e, density); !fits(e, scale, options))
-            return Error{fmt::format(
-                "{} needs {:.0f} x {:.0f} texels at {:.4g} texels per metre, but pages have {} x {}: ask for "
-                "larger pages or fewer texels per metre",
-                world.name_of(e.object), texels_for(e.x1 - e.x0, scale), texels_for(e.y1 - e.y0, scale), density,
-                options.width, options.height)};
+            return Error{
+                fmt::format("{} needs {:.0f} x {:.0f} texels at {:.4g} texels per metre, but pages have {} x {}: "
+                            "choose larger pages or fewer texels per metre",
+                            world.name_of(e.object), texels_for(e.x1 - e.x0, scale), texels_for(e.y1 - e.y0, scale),
+                            density, options.width, options.height)};
     return packed_at(world, extents, density, pack_options(options, stop));
 }
 

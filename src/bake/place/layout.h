@@ -1,19 +1,19 @@
-// Where objects go on pages: their sizes, and their rectangles packed.
+// Layout of objects on pages: their sizes, and their packed rectangles.
 #pragma once
 
 #include "bake/place/atlas.h"
 
 namespace lobelia {
 
-/// Placements of each object, and how many pages they take.
+/// Placement of each object, and the number of pages.
 struct ObjectPlacements {
     std::vector<AtlasPlacement> placements;
     std::size_t pages = 0;
 };
 
-/// The whole page for all.
+/// Gives every object the whole page.
 [[nodiscard]] ObjectPlacements shared_layout(const World& world, const AtlasOptions& options);
-/// A rectangle for each. An error names the object that does not fit a page. Throws Stopped.
+/// Gives each object its own rectangle. Errors: an object does not fit a page (named). Throws Stopped.
 [[nodiscard]] Result<ObjectPlacements> packed_layout(const World& world, const AtlasOptions& options,
                                                      StopFlag stop = {});
 

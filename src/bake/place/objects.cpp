@@ -1,4 +1,4 @@
-// Objects of a scene as they are addressed, and their texels.
+// Finds objects by name or index, and their texels.
 #include "bake/place/objects.h"
 
 #include <fmt/format.h>
@@ -34,9 +34,9 @@ std::vector<std::size_t> objects_called(const World& world, const std::string& n
 
 Result<std::uint32_t> find_object(const World& world, const std::string& name) {
     const auto found = objects_called(world, name);
-    if (found.empty()) return Error{"no object is called \"" + name + "\"" + nearest_names(name, world.names)};
+    if (found.empty()) return Error{"no object is named \"" + name + "\"" + nearest_names(name, world.names)};
     if (found.size() > 1)
-        return Error{fmt::format("{} objects are called \"{}\"; name one by its index: #{}", found.size(), name,
+        return Error{fmt::format("{} objects are named \"{}\"; select one by its index: #{}", found.size(), name,
                                  fmt::join(found, ", #"))};
     if (world.has_lightmap_uv[found.front()] == 0)
         return Error{"object \"" + name + "\" has no lightmap UVs and is not baked"};

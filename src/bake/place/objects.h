@@ -11,7 +11,7 @@ namespace lobelia {
 /// name, or no lightmap UVs.
 [[nodiscard]] Result<std::uint32_t> find_object(const World& world, const std::string& name);
 
-/// Returns the part of the map that one object covers; tiles without any of it vanish.
+/// Returns the part of the map that one object covers, without empty tiles.
 [[nodiscard]] TexelMap texels_of_object(const TexelMap& map, const World& world, std::uint32_t object);
 
 }  // namespace lobelia

@@ -1,4 +1,4 @@
-// Packing by stb_rect_pack.
+// Packs rectangles by stb_rect_pack.
 #include "bake/place/pack_rectangles.h"
 
 #include <algorithm>
@@ -6,7 +6,7 @@
 
 namespace {
 
-/// qsort's order of equals differs between platforms; this one's does not.
+/// Sorts with an order of equals that does not depend on the platform, unlike qsort's.
 template <class T, class Compare>
 void sort_stably(T* begin, int count, std::size_t, const Compare& compare) {
     std::stable_sort(begin, begin + count, [&](const T& a, const T& b) { return compare(&a, &b) < 0; });
@@ -41,7 +41,7 @@ std::vector<stbrp_rect> padded(std::span<const PackedRectangle> rectangles, cons
     return result;
 }
 
-/// Packs as many as fit one page; the padding beyond the last rectangle of a row may hang over.
+/// Packs as many as fit one page; the padding after the last rectangle of a row may exceed the page.
 void fill_page(std::vector<stbrp_rect>& rectangles, const PackOptions& options) {
     options.stop.check();
     const int width = options.width + options.padding, height = options.height + options.padding;
@@ -54,7 +54,7 @@ void fill_page(std::vector<stbrp_rect>& rectangles, const PackOptions& options) 
 }  // namespace
 
 bool fits_one_page(std::span<const PackedRectangle> rectangles, const PackOptions& options) {
-    // More than the area of a page need not be tried.
+    // Skip packing if the total area exceeds a page.
     double area = 0;
     for (const PackedRectangle& r : rectangles)
         area += static_cast<double>(r.width + options.padding) * (r.height + options.padding);

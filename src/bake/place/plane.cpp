@@ -1,4 +1,4 @@
-// Containment, weights and clipping of triangles on pages.
+// Containment, barycentric weights and clipping of triangles on pages.
 #include "bake/place/plane.h"
 
 #include <algorithm>
@@ -7,13 +7,13 @@
 namespace lobelia {
 namespace {
 
-/// Below this area [texels^2] a triangle owns no texel worth having: a millionth of one.
+/// Minimum area [texels^2] of a triangle that can own texels, times two: a millionth of a texel.
 constexpr double k_least_twice_area = 2e-6;
 
 double cross_product(PagePoint a, PagePoint b) { return a.x * b.y - a.y * b.x; }
 PagePoint difference(PagePoint a, PagePoint b) { return {a.x - b.x, a.y - b.y}; }
 
-/// The part of `polygon` where `height` >= 0; height is linear.
+/// Clips `polygon` to the part where `height` >= 0; height is linear.
 template <class Height>
 Polygon cut(const Polygon& polygon, const Height& height) {
     Polygon result;
@@ -29,7 +29,7 @@ Polygon cut(const Polygon& polygon, const Height& height) {
     return result;
 }
 
-/// floor or ceil, cut to [low, high] before it becomes an int.
+/// Rounds by floor or ceil, clamping to [low, high] before the conversion to int.
 int cut_to(double value, int low, int high) {
     return static_cast<int>(std::clamp(value, static_cast<double>(low), static_cast<double>(high)));
 }
@@ -48,7 +48,7 @@ double Polygon::area() const {
 }
 
 PagePoint Polygon::centroid() const {
-    // Weigh the centroids of a fan of triangles by their areas.
+    // Weight the centroids of a fan of triangles by their areas.
     double twice = 0;
     PagePoint sum, mean;
     for (std::size_t i = 0; i < size; ++i) {
@@ -110,7 +110,7 @@ bool PageTriangle::contains(PagePoint p, double margin) const {
 
 bool PageTriangle::may_touch(const TexelBox& box) const {
     for (std::size_t i = 0; i < 3; ++i) {
-        // The corner of the box that lies farthest inside decides.
+        // Test the corner of the box that lies farthest inside the edge.
         const PagePoint p{static_cast<double>(direction_[i].y < 0 ? box.x1 : box.x0),
                           static_cast<double>(direction_[i].x < 0 ? box.y0 : box.y1)};
         if (beyond(i, p) <= 0) return false;

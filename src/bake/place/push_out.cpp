@@ -1,4 +1,4 @@
-// Looking for backs around positions, and stepping past them.
+// Finds back faces around positions, and moves the positions past them.
 #include "bake/place/push_out.h"
 
 #include <algorithm>
@@ -14,16 +14,16 @@ using Hit = PathTracer::Hit;
 
 constexpr float k_infinite = std::numeric_limits<float>::infinity();
 
-/// Rays along the surface: a first look has few, turned from position to position, a second one all.
+/// Rays along the surface: the first search uses few, rotated from position to position; the second uses all.
 constexpr std::size_t k_first_look = 4, k_second_look = 8;
-/// How far the first look reaches, in texel's widths: its four rays meet whatever is nearer than one width.
+/// Reach of the first search, in texel widths: its four rays hit any wall nearer than one width.
 constexpr float k_first_reach = 1.5f;
-/// Objects stand within objects; but who is not out after this many steps stays in.
+/// Maximum push-out steps; nested objects need several. Points still inside afterwards stay buried.
 constexpr int k_most_steps = 3;
-/// Texels looked at at a time.
-constexpr std::size_t k_batch = 64;
+/// Texels processed at a time.
+constexpr std::size_t k_texels_at_once = 64;
 
-/// Unit vector of the plane across `normal`; all turns from 0 to 1 go once around.
+/// Returns a unit tangent vector; `turn` from 0 to 1 rotates it once around the normal.
 Vec3 along_surface(Vec3 normal, float turn) {
     const Rotation frame = tangent_from_world(normal);
     const float angle = static_cast<float>(2 * k_pi) * turn;
@@ -37,14 +37,14 @@ class Pusher {
     void run(std::span<const TexelReach> reach, std::span<Receiver> texels);
 
   private:
-    /// Whether the ray came from behind a surface that has light on its front only.
+    /// Returns whether the ray hit the back of an opaque surface that is lit on its front only.
     [[nodiscard]] bool from_behind(const Hit& hit) const;
-    /// Texels that see the back of anything at a first look.
+    /// Collects the texels from which a ray of the first search hits a back face.
     void find_suspects(std::span<const TexelReach> reach, std::span<const Receiver> texels);
-    /// Where a position goes, or nothing if it is buried for good.
+    /// Returns the new place of a position, or nothing if it is buried.
     [[nodiscard]] std::optional<Vec3> moved(Vec3 position, Vec3 normal, float width) const;
     [[nodiscard]] bool sees_only_backs(Vec3 position, Vec3 normal) const;
-    /// The way to the front of what the ray met from behind: a point past it, if nothing stops light between.
+    /// Returns a point just past a back-face hit, or nothing if another surface blocks light there.
     [[nodiscard]] std::optional<Vec3> past(const Ray& ray, const Hit& hit) const;
 
     const PathTracer& tracer_;
@@ -72,7 +72,8 @@ void Pusher::find_suspects(std::span<const TexelReach> reach, std::span<const Re
                 const float turn = static_cast<float>(r * k_most_positions + k) / (k_first_look * k_most_positions);
                 add(k, along_surface(reach[i].normals[k], turn), k_first_reach * reach[i].width);
             }
-            // Up, and one of these far: it tells of what is too large to have its sides near.
+            // Trace straight up as well; one such ray without limit finds surfaces whose sides are farther than a
+            // texel.
             add(k, reach[i].normals[k], k == 0 ? k_infinite : reach[i].width);
         }
     }
@@ -85,21 +86,21 @@ void Pusher::find_suspects(std::span<const TexelReach> reach, std::span<const Re
 }
 
 std::optional<Vec3> Pusher::past(const Ray& ray, const Hit& hit) const {
-    // Step past the surface by some lifts.
+    // Step past the surface by a few ray offsets.
     const float lift = tracer_.lift(ray.origin);
     const float slope = std::max(0.125f, std::abs(dot(ray.direction, tracer_.world().face_normal(hit.triangle))));
     const float step = 4 * lift / slope;
     const Ray beyond{ray.origin + ray.direction * (hit.distance + step / 4), ray.direction, step};
-    // Where the front of another surface lies at the same place, this is a wall between two rooms.
+    // If the front of another surface coincides, this is a wall between two rooms.
     if (tracer_.stops({ray.origin, ray.direction, hit.distance + step / 4})) return std::nullopt;
-    // Stay before what lies right behind it.
+    // Stay in front of the next surface behind it.
     Hit next;
     tracer_.closest({&beyond, 1}, {&next, 1});
     return beyond.origin + beyond.direction * (std::isfinite(next.distance) ? next.distance / 2 : 0.75f * step);
 }
 
 bool Pusher::sees_only_backs(Vec3 position, Vec3 normal) const {
-    // Up, and five rays 60 degrees from it.
+    // Trace straight up, and five rays at 60 degrees from the normal.
     std::array<Ray, 6> rays;
     std::array<Hit, 6> hits;
     for (std::size_t r = 0; r < 5; ++r)
@@ -117,7 +118,7 @@ bool Pusher::sees_only_backs(Vec3 position, Vec3 normal) const {
 std::optional<Vec3> Pusher::moved(Vec3 position, Vec3 normal, float width) const {
     float left = width;
     for (int step = 0; step < k_most_steps; ++step) {
-        // Look for the nearest back along the surface, or else above.
+        // Find the nearest back face along the surface, or else above.
         std::array<Ray, k_second_look + 1> rays;
         std::array<Hit, k_second_look + 1> hits;
         for (std::size_t r = 0; r < k_second_look; ++r)
@@ -138,7 +139,7 @@ std::optional<Vec3> Pusher::moved(Vec3 position, Vec3 normal, float width) const
         }
         if (!to) break;
 
-        // Go there.
+        // Move there.
         position = *to;
         left = std::max(0.0f, left - distance);
     }
@@ -149,7 +150,7 @@ std::optional<Vec3> Pusher::moved(Vec3 position, Vec3 normal, float width) const
 void Pusher::run(std::span<const TexelReach> reach, std::span<Receiver> texels) {
     find_suspects(reach, texels);
     for (const std::size_t i : suspects_) {
-        // Keep the positions that are out, or nothing of this if none are.
+        // Keep the positions that are outside; if none are, keep the texel's original ones.
         Receiver result = texels[i];
         result.position_count = 0;
         for (std::size_t k = 0; k < texels[i].position_count; ++k) {
@@ -169,8 +170,8 @@ void Pusher::run(std::span<const TexelReach> reach, std::span<Receiver> texels) 
 void push_out(const PathTracer& tracer, std::span<const TexelReach> reach, std::span<Receiver> texels) {
     assert(reach.size() == texels.size());
     Pusher pusher(tracer);
-    for (std::size_t begin = 0; begin < texels.size(); begin += k_batch) {
-        const std::size_t count = std::min(k_batch, texels.size() - begin);
+    for (std::size_t begin = 0; begin < texels.size(); begin += k_texels_at_once) {
+        const std::size_t count = std::min(k_texels_at_once, texels.size() - begin);
         pusher.run(reach.subspan(begin, count), texels.subspan(begin, count));
     }
 }

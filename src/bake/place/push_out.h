@@ -1,5 +1,5 @@
-// Positions that other geometry has buried, moved to where there is light: short rays along the surface look for the
-// backs of others.
+// Moves sample positions out of overlapping geometry: short rays along the surface search for back faces of other
+// surfaces.
 #pragma once
 
 #include <span>
@@ -8,10 +8,10 @@
 
 namespace lobelia {
 
-/// What is known of a texel besides when its positions are moved.
+/// Additional data of a texel for moving its positions.
 struct TexelReach {
-    float width = 0;                             ///< of the texel in the world, along its longer side [m]
-    std::array<Vec3, k_most_positions> normals;  ///< of the triangles that its positions lie on, unit
+    float width = 0;                             ///< width of the texel in the world, along its longer side [m]
+    std::array<Vec3, k_most_positions> normals;  ///< unit normals of the triangles that its positions lie on
 };
 
 /// Moves each position that lies behind a one-sided, opaque surface less than a texel's width away to that surface's

@@ -1,9 +1,12 @@
-// Vertices in a grid of cells about as wide as an edge is long; each edge asks the cells that it passes.
+// Stores vertices in a grid of cells about as wide as an edge is long; each edge searches the cells that it crosses.
 #include "bake/place/split_edges.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <tuple>
+
+#include "core/math/hash.h"
 
 namespace lobelia {
 namespace {
@@ -21,7 +24,7 @@ double length_of(const World& world, const EdgePiece& piece) {
     return std::sqrt(dot(d, d));
 }
 
-/// The pieces' ends, sorted by their cells.
+/// The ends of the pieces, sorted by cell.
 class VertexGrid {
   public:
     VertexGrid(const World& world, std::span<const EdgePiece> pieces, double width) : width_(width) {
@@ -34,8 +37,8 @@ class VertexGrid {
         entries_.erase(std::unique(entries_.begin(), entries_.end()), entries_.end());
     }
 
-    /// Calls visit(vertex) for all in the cells that the box about a and b, grown by `margin`, touches, perhaps for
-    /// others, too; until it says false.
+    /// Calls visit(vertex) for all vertices in cells that the box about a and b, grown by `margin`, touches, and
+    /// possibly for others; stops when it returns false.
     template <class Visit>
     bool visit_near(Point a, Point b, double margin, const Visit& visit) const {
         const auto range = [&](double u, double v) {
@@ -56,14 +59,7 @@ class VertexGrid {
     [[nodiscard]] std::int64_t cell(double x) const {
         return static_cast<std::int64_t>(std::clamp(std::floor(x / width_), -0x1p52, 0x1p52));
     }
-    static std::uint64_t key(std::int64_t x, std::int64_t y, std::int64_t z) {
-        std::uint64_t h = 0x9e3779b97f4a7c15u;
-        for (const std::int64_t i : {x, y, z}) {
-            h = (h ^ static_cast<std::uint64_t>(i)) * 0xff51afd7ed558ccdu;
-            h ^= h >> 32;
-        }
-        return h;
-    }
+    static std::uint64_t key(std::int64_t x, std::int64_t y, std::int64_t z) { return hash_of(std::array{x, y, z}); }
     template <class Visit>
     bool visit_cell(std::uint64_t of_cell, const Visit& visit) const {
         for (auto at = std::lower_bound(entries_.begin(), entries_.end(), Entry{of_cell, 0});
@@ -76,7 +72,7 @@ class VertexGrid {
     std::vector<Entry> entries_;
 };
 
-/// Cuts one piece after another, within bounds for all together.
+/// Splits one piece after another, within limits for all together.
 class Splitter {
   public:
     Splitter(const World& world, std::span<const EdgePiece> pieces, double tolerance)
@@ -105,14 +101,14 @@ class Splitter {
     }
 
   private:
-    /// The mean length, so that edges pass about two cells each.
+    /// Returns the mean length, so that edges cross about two cells each.
     static double cell_width(const World& world, std::span<const EdgePiece> pieces, double tolerance) {
         double sum = 0;
         for (const EdgePiece& piece : pieces) sum += length_of(world, piece);
         return std::max({sum / static_cast<double>(std::max<std::size_t>(1, pieces.size())), 4 * tolerance, 1e-30});
     }
 
-    /// The vertices on the inside of a piece, from low to high.
+    /// Finds the vertices inside a piece, from low to high.
     void find_cuts(const EdgePiece& piece) {
         cuts_.clear();
         const Point a = point(world_->positions[piece.low]), d = point(world_->positions[piece.high]) - a;

@@ -1,4 +1,4 @@
-// Edges cut where other edges end upon them: T-junctions become edges that lie at the same place.
+// Splits edges where others end on them: at T-junctions the parts then lie at the same position.
 #pragma once
 
 #include <span>
@@ -17,13 +17,13 @@ struct EdgePiece {
     [[nodiscard]] bool same_place(const EdgePiece& other) const { return low == other.low && high == other.high; }
 };
 
-/// The whole edge as one piece.
+/// Returns the whole edge as one piece.
 [[nodiscard]] EdgePiece whole_piece(const World& world, const std::vector<std::uint32_t>& welded,
                                     const WorldEdge& edge);
 
-/// Cuts whole pieces at each end of another one that lies within `tolerance` [m] of their inside. The order is that of
-/// sorted_edges. Time and memory are linear in the number of pieces for meshes as people make them, and bounded for
-/// any: what lies in the way of thousands stays uncut. Throws Stopped.
+/// Splits whole pieces at each end of another one that lies within `tolerance` [m] of their inside. The order is that
+/// of sorted_edges. Time and memory are linear in the number of pieces for ordinary meshes, and bounded for any: beyond
+/// the limits, pieces stay whole. Throws Stopped.
 [[nodiscard]] std::vector<EdgePiece> split_edges(const World& world, std::span<const EdgePiece> pieces, float tolerance,
                                                  StopFlag stop = {});
 

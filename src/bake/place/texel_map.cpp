@@ -8,9 +8,9 @@
 namespace lobelia {
 namespace {
 
-constexpr std::uint32_t k_nobody = 0xffffffff;
+constexpr std::uint32_t k_no_triangle = 0xffffffff;
 
-/// Which triangle owns each texel of one tile.
+/// The triangle that owns each texel of one tile.
 struct TileOwners {
     std::array<std::uint32_t, k_tile * k_tile> owner;
     std::array<float, k_tile * k_tile> cover;
@@ -20,7 +20,8 @@ std::size_t index_in(const TexelBox& tile, int x, int y) {
     return static_cast<std::size_t>(y - tile.y0) * k_tile + static_cast<std::size_t>(x - tile.x0);
 }
 
-/// Triangles that hold the texels' centres; of several the first. Whether any texel is still without.
+/// Assigns texels to triangles that contain their centres; the first of several. Returns whether any texel has no
+/// owner.
 bool own_by_centre(const Atlas& atlas, std::size_t tile, TileOwners& out) {
     const TexelBox box = atlas.box_of_tile(tile);
     std::size_t left = static_cast<std::size_t>(box.x1 - box.x0) * static_cast<std::size_t>(box.y1 - box.y0);
@@ -30,7 +31,7 @@ bool own_by_centre(const Atlas& atlas, std::size_t tile, TileOwners& out) {
         for (int y = part.y0; y < part.y1; ++y)
             for (int x = part.x0; x < part.x1; ++x) {
                 std::uint32_t& owner = out.owner[index_in(box, x, y)];
-                if (owner != k_nobody || !triangle.contains({x + 0.5, y + 0.5})) continue;
+                if (owner != k_no_triangle || !triangle.contains({x + 0.5, y + 0.5})) continue;
                 owner = t;
                 if (--left == 0) return false;
             }
@@ -38,7 +39,7 @@ bool own_by_centre(const Atlas& atlas, std::size_t tile, TileOwners& out) {
     return true;
 }
 
-/// Triangles that cover most of those texels whose centres nobody holds.
+/// Assigns the remaining texels to the triangles that cover most of them.
 void own_by_cover(const Atlas& atlas, std::size_t tile, TileOwners& out) {
     const TexelBox box = atlas.box_of_tile(tile);
     for (const std::uint32_t t : atlas.triangles_of_tile(tile)) {
@@ -47,7 +48,7 @@ void own_by_cover(const Atlas& atlas, std::size_t tile, TileOwners& out) {
         for (int y = part.y0; y < part.y1; ++y)
             for (int x = part.x0; x < part.x1; ++x) {
                 const std::size_t i = index_in(box, x, y);
-                const bool by_centre = out.owner[i] != k_nobody && out.cover[i] == 0;
+                const bool by_centre = out.owner[i] != k_no_triangle && out.cover[i] == 0;
                 if (by_centre || !triangle.may_touch({x, y, x + 1, y + 1})) continue;
                 const auto cover = static_cast<float>(triangle.part_in(x, y).area());
                 if (cover < static_cast<float>(k_least_cover) || cover <= out.cover[i]) continue;
@@ -62,19 +63,20 @@ template <class Visit>
 void for_each_owned(const Atlas& atlas, std::size_t tile, const Visit& visit) {
     if (atlas.triangles_of_tile(tile).empty()) return;
     TileOwners owners;
-    owners.owner.fill(k_nobody);
+    owners.owner.fill(k_no_triangle);
     owners.cover.fill(0);
     if (own_by_centre(atlas, tile, owners)) own_by_cover(atlas, tile, owners);
     const TexelBox box = atlas.box_of_tile(tile);
     for (int y = box.y0; y < box.y1; ++y)
         for (int x = box.x0; x < box.x1; ++x)
-            if (const std::uint32_t owner = owners.owner[index_in(box, x, y)]; owner != k_nobody) visit(x, y, owner);
+            if (const std::uint32_t owner = owners.owner[index_in(box, x, y)]; owner != k_no_triangle)
+                visit(x, y, owner);
 }
 
 }  // namespace
 
 TexelMap map_texels(const Atlas& atlas, StopFlag stop) {
-    // Tiles in groups, each with its own list; the lists are joined in order.
+    // Process tiles in groups, each with its own list, and join the lists in order.
     constexpr std::size_t k_group = 16;
     const std::size_t groups = (atlas.tiles() + k_group - 1) / k_group;
     std::vector<TexelMap> parts(groups);
@@ -92,7 +94,7 @@ TexelMap map_texels(const Atlas& atlas, StopFlag stop) {
         }
     });
 
-    // Join them, and let go of each as it is copied.
+    // Join the lists, and free each once it is copied.
     TexelMap map;
     std::size_t texels = 0;
     for (const TexelMap& part : parts) texels += part.texels.size();

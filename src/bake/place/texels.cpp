@@ -12,15 +12,15 @@
 namespace lobelia {
 namespace {
 
-/// Where samples start within a texel: a square grid, turned by atan(1/2), so that no two share a row or a column.
+/// Start points of samples within a texel: a square grid rotated by atan(1/2), so that no two share a row or a column.
 constexpr std::array<PagePoint, k_most_positions> k_pattern = {PagePoint{0.375, 0.125}, PagePoint{0.875, 0.375},
                                                                PagePoint{0.125, 0.625}, PagePoint{0.625, 0.875}};
-constexpr std::uint32_t k_nobody = 0xffffffff;
+constexpr std::uint32_t k_no_place = 0xffffffff;
 
-/// Which triangle of the texel's chart holds each point of its pattern.
+/// The triangle of the texel's chart that contains each point of its pattern.
 using Holders = std::array<std::uint32_t, k_most_positions>;
 
-/// Makes receivers of texels that lie on one tile.
+/// Makes the receivers of texels of one tile.
 class TileTexels {
   public:
     TileTexels(const Atlas& atlas, const TexelMap& map, const PathTracer& tracer)
@@ -41,7 +41,7 @@ class TileTexels {
     const Atlas& atlas_;
     const TexelMap& map_;
     const PathTracer& tracer_;
-    std::array<std::uint32_t, k_tile * k_tile> place_;  ///< in holders_ of each of the tile's texels
+    std::array<std::uint32_t, k_tile * k_tile> place_;  ///< index into holders_ of each of the tile's texels
     std::vector<Holders> holders_;
     std::vector<TexelReach> reach_;
 };
@@ -49,13 +49,13 @@ class TileTexels {
 void TileTexels::find_holders(std::size_t begin, std::size_t end) {
     const std::size_t tile = atlas_.tile_of(map_.texels[begin]);
     const TexelBox box = atlas_.box_of_tile(tile);
-    place_.fill(k_nobody);
-    holders_.assign(end - begin, {k_nobody, k_nobody, k_nobody, k_nobody});
+    place_.fill(k_no_place);
+    holders_.assign(end - begin, {k_no_place, k_no_place, k_no_place, k_no_place});
     for (std::size_t i = begin; i < end; ++i)
         place_[(map_.texels[i].y - box.y0) * k_tile + (map_.texels[i].x - box.x0)] =
             static_cast<std::uint32_t>(i - begin);
 
-    // The first triangle of the owner's chart that holds a point has it.
+    // Store the first triangle of the owner's chart that contains a point.
     const auto& charts = atlas_.chart_of_triangle();
     for (const std::uint32_t t : atlas_.triangles_of_tile(tile)) {
         const PageTriangle triangle(atlas_.texel_triangle(t));
@@ -63,10 +63,10 @@ void TileTexels::find_holders(std::size_t begin, std::size_t end) {
         for (int y = part.y0; y < part.y1; ++y)
             for (int x = part.x0; x < part.x1; ++x) {
                 const std::uint32_t place = place_[static_cast<std::size_t>(y - box.y0) * k_tile + (x - box.x0)];
-                if (place == k_nobody || charts[map_.triangle[begin + place]] != charts[t]) continue;
+                if (place == k_no_place || charts[map_.triangle[begin + place]] != charts[t]) continue;
                 for (std::size_t k = 0; k < k_most_positions; ++k)
                     if (std::uint32_t& holder = holders_[place][k];
-                        holder == k_nobody && triangle.contains({x + k_pattern[k].x, y + k_pattern[k].y}))
+                        holder == k_no_place && triangle.contains({x + k_pattern[k].x, y + k_pattern[k].y}))
                         holder = t;
             }
     }
@@ -91,12 +91,12 @@ Receiver TileTexels::receiver(std::size_t i, const Holders& holders, TexelReach&
     result.key = static_cast<std::uint32_t>((at.page * atlas_.height() + at.y) * atlas_.width() + at.x);
     const Vec3 face = world.face_normal(t), owner_normal = dot(face, face) > 0 ? face : result.normal;
 
-    // Start samples at the points of the pattern that the texel's chart covers, or else in the middle of its covered
-    // part.
+    // Start samples at the points of the pattern that the texel's chart covers; if there are none, at the middle of its
+    // covered part.
     const int x = static_cast<int>(at.x), y = static_cast<int>(at.y);
     reach.width = texel_width(atlas_, t);
     for (std::size_t k = 0; k < k_most_positions; ++k)
-        if (holders[k] != k_nobody)
+        if (holders[k] != k_no_place)
             add_position(holders[k], {x + k_pattern[k].x, y + k_pattern[k].y}, owner_normal, result, reach);
     if (result.position_count == 0) {
         const PageTriangle triangle(atlas_.texel_triangle(t));

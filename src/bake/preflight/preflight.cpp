@@ -14,23 +14,23 @@
 namespace lobelia {
 namespace {
 
-constexpr std::uint32_t k_nobody = 0xffffffff;
+constexpr std::uint32_t k_no_object = 0xffffffff;
 
-using Pair = std::pair<std::uint32_t, std::uint32_t>;
-using PairCounts = std::map<Pair, std::size_t>;
+using ObjectPair = std::pair<std::uint32_t, std::uint32_t>;
+using PairCounts = std::map<ObjectPair, std::size_t>;
 
 /// Marks texels whose centres two triangles cover, and counts them by object; each texel once.
 void find_overlaps(const Atlas& atlas, StopFlag stop, Preflight& result) {
     // The margin excludes triangles that share an edge. The points lie a little beside the centres, because edges and
     // diagonals often run through those.
-    constexpr double k_margin = 1e-3, k_x = 0.503, k_y = 0.508;
+    constexpr double k_margin = 1e-3, k_beside_x = 0.503, k_beside_y = 0.508;
     const World& world = atlas.world();
     tbb::combinable<PairCounts> counts;
     tbb::parallel_for(std::size_t{0}, atlas.tiles(), [&](std::size_t tile) {
         std::vector<TexelMark>& marks = result.pages[atlas.page_of_tile(tile)].mark;
         const TexelBox box = atlas.box_of_tile(tile);
         std::array<std::uint32_t, k_tile * k_tile> first;
-        first.fill(k_nobody);
+        first.fill(k_no_object);
         std::size_t left = static_cast<std::size_t>(box.x1 - box.x0) * static_cast<std::size_t>(box.y1 - box.y0);
         for (const std::uint32_t t : atlas.triangles_of_tile(tile)) {
             // Where all texels are marked, the rest of the triangles change nothing.
@@ -41,9 +41,10 @@ void find_overlaps(const Atlas& atlas, StopFlag stop, Preflight& result) {
             for (int y = part.y0; y < part.y1; ++y)
                 for (int x = part.x0; x < part.x1; ++x) {
                     TexelMark& mark = marks[static_cast<std::size_t>(y) * atlas.width() + static_cast<std::size_t>(x)];
-                    if (mark == TexelMark::overlap || !triangle.contains({x + k_x, y + k_y}, k_margin)) continue;
+                    if (mark == TexelMark::overlap || !triangle.contains({x + k_beside_x, y + k_beside_y}, k_margin))
+                        continue;
                     std::uint32_t& other = first[static_cast<std::size_t>(y - box.y0) * k_tile + (x - box.x0)];
-                    if (other != k_nobody) {
+                    if (other != k_no_object) {
                         mark = TexelMark::overlap;
                         --left;
                         ++counts.local()[std::minmax(world.object[other], world.object[t])];

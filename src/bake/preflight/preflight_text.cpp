@@ -9,6 +9,7 @@
 #include "bake/preflight/preflight.h"
 #include "core/math/colour.h"
 #include "io/counted.h"
+#include "io/printable.h"
 
 namespace lobelia {
 namespace {
@@ -143,7 +144,7 @@ std::string to_text(const Preflight& p, const Scene& scene) {
                         bytes(memory.scene), bytes(memory.states), bytes(memory.pages), bytes(memory.texels),
                         bytes(memory.finishing));
     if (p.seconds) text += fmt::format("time: about {}\n", duration(*p.seconds));
-    for (const std::string& warning : warnings(p, scene)) text += "warning: " + warning + '\n';
+    for (const std::string& warning : warnings(p, scene)) text += "warning: " + printable(warning) + '\n';
     return text;
 }
 

@@ -320,7 +320,7 @@ Status check(const ProbeOptions& options, const World& world) {
     auto codec = make_codec(options.codec);
     if (!codec) return codec.error();
     if (codec->basis().domain() != Domain::sphere)
-        return Error{"--probe-codec: must be spherical; " + codec->basis().name() + " is a basis of the hemisphere"};
+        return Error{"--probe-codec: must be spherical; " + codec->basis().name() + " is a hemispherical basis"};
     const auto cells = cells_of(options, world);
     double probes = 1;
     for (const std::int32_t n : cells) probes *= n + 1.0;

@@ -15,7 +15,7 @@ class PathsWorker {
 
     void shade(std::span<const PathStart> rays, std::span<const std::uint32_t> of_ray, RenderTile& tile) {
         sights_.resize(rays.size());
-        view_->look(rays, sights_);
+        view_->resolve(rays, sights_);
         paths_.add(sights_, of_ray, tile);
         for (std::size_t i = 0; i < sights_.size(); ++i)
             if (sights_[i].kind == Sight::Kind::unlit) tile.add(of_ray[i], view_->unlit_color(sights_[i].hit));

@@ -60,7 +60,7 @@ class BakeWorker {
 
     void shade(std::span<const PathStart> rays, std::span<const std::uint32_t> of_ray, RenderTile& tile) {
         sights_.resize(rays.size());
-        view_->look(rays, sights_);
+        view_->resolve(rays, sights_);
         paths_.add(sights_, of_ray, tile);
         points_.clear();
         for (std::size_t i = 0; i < sights_.size(); ++i) {

@@ -15,7 +15,7 @@ PathOptions with_seen_surface(PathOptions paths) {
 }
 
 Result<Image> finished(std::optional<Image> image) {
-    if (!image) return Error{"stopped"};
+    if (!image) return Error{"stopped", Error::Kind::stopped};
     return *std::move(image);
 }
 
@@ -28,7 +28,7 @@ Result<Image> render(const Scene& scene, const Camera& camera, const PathOptions
 
 Result<Image> render(const Scene& scene, const Bake& bake, const Camera& camera, const RenderOptions& options) {
     if (scene.objects.size() != bake.manifest.objects.size())
-        return Error{fmt::format("the bake holds {} objects, but the scene {}", bake.manifest.objects.size(),
+        return Error{fmt::format("the bake has {} objects, but the scene has {}", bake.manifest.objects.size(),
                                  scene.objects.size())};
     const auto light = light_of(bake, options.lightmap_uv);
     if (!light) return light.error();

@@ -4,12 +4,12 @@
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <array>
 #include <mutex>
 
 #include "bake/render/render.h"
+#include "bake/with_threads.h"
 #include "trace/camera_view.h"
 
 namespace lobelia {
@@ -77,8 +77,7 @@ std::optional<Image> render_tiles(const CameraRays& rays, const RenderOptions& o
         done += 1;
         if (options.progress) options.progress(static_cast<double>(done) / static_cast<double>(tiles));
     };
-    tbb::task_arena arena(options.threads == 0 ? tbb::task_arena::automatic : static_cast<int>(options.threads));
-    arena.execute([&] {
+    with_threads(options.threads, [&] {
         tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tiles), [&](const tbb::blocked_range<std::size_t>& range) {
             for (std::size_t i = range.begin(); i < range.end(); ++i) render_tile(i);
         });

@@ -4,13 +4,14 @@
 #include <filesystem>
 
 #include "bake/session/setup.h"
+#include "bake/write/files_together.h"
 
 namespace lobelia {
 
-/// Writes the states of the whole bake into the folder `checkpoint` from those in its shards' checkpoint folders. Tiles
-/// are copied bit by bit; sums of samples are added in the order given. An error if a shard is missing, given twice,
-/// unfinished or of another bake; then nothing is left behind.
+/// Adds the states of the whole bake to `files`, from those in the folders of its shards. Tiles are copied bit by bit;
+/// sums of samples are added in the order of their passes. An error unless the shards together hold each pass of each
+/// tile exactly once; it says which are missing or given twice, and by which folder.
 [[nodiscard]] Status merge_shards(const BakeSetup& bake, std::span<const std::filesystem::path> shards,
-                                  const std::filesystem::path& checkpoint, StopFlag stop = {});
+                                  FilesTogether& files);
 
 }  // namespace lobelia

@@ -28,17 +28,20 @@ std::vector<std::uint32_t> tiles_of(const TexelMap& map, const Shard& shard) {
     return result;
 }
 
+PassRange passes_of(const BakeOptions& options, const Shard& shard) {
+    const std::uint64_t each = options.samples_per_pass, passes = (options.samples + each - 1) / each;
+    if (shard.by == Shard::By::tiles) return {0, static_cast<std::uint32_t>(passes)};
+    return {static_cast<std::uint32_t>(passes * shard.index / shard.count),
+            static_cast<std::uint32_t>(passes * (shard.index + 1) / shard.count)};
+}
+
 Result<BakePlan> make_plan(const TexelMap& map, const BakeOptions& options, std::size_t bytes_per_texel,
                            std::size_t bytes_always) {
     BakePlan plan;
-    const std::uint32_t passes = (options.samples + options.samples_per_pass - 1) / options.samples_per_pass;
     const Shard& shard = options.shard;
-    plan.end_pass = passes;
-    if (shard.by == Shard::By::samples) {
-        plan.first_pass = static_cast<std::uint32_t>(std::uint64_t{passes} * shard.index / shard.count);
-        plan.end_pass = static_cast<std::uint32_t>(std::uint64_t{passes} * (shard.index + 1) / shard.count);
-    }
-
+    const PassRange passes = passes_of(options, shard);
+    plan.first_pass = passes.first;
+    plan.end_pass = passes.end;
     plan.tiles = tiles_of(map, shard);
 
     // Fill one region after another with the tiles that fit the remaining memory.

@@ -13,6 +13,15 @@ struct TileRange {
 /// Returns the texel indices of tiles, tile by tile.
 [[nodiscard]] std::vector<std::uint32_t> texels_of(const TexelMap& map, std::span<const std::uint32_t> tiles);
 
+/// Passes [first, end) of a bake.
+struct PassRange {
+    std::uint32_t first = 0, end = 0;
+    friend bool operator==(const PassRange&, const PassRange&) = default;
+};
+
+/// Returns the passes that a shard takes of the samples, rounded up to whole passes.
+[[nodiscard]] PassRange passes_of(const BakeOptions& options, const Shard& shard);
+
 struct BakePlan {
     std::vector<std::uint32_t> tiles;  ///< of this shard, in order
     std::vector<TileRange> regions;    ///< ranges of places in `tiles`

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "bake/place/texels.h"
+#include "bake/session/continuation.h"
 
 namespace lobelia {
 namespace {
@@ -77,7 +78,7 @@ Result<GatheredRegion> RegionGatherer::gather(std::size_t number) {
     while (header.end_pass < plan.end_pass && !(limit && seconds_since(start_) >= part * *limit)) {
         const auto pass_start = Clock::now();
         run_pass(region, first_of_tile, header.end_pass);
-        if (stopped()) return Error{"stopped"};
+        if (stopped()) return Error{"stopped", Error::Kind::stopped};
         if (session_.progress) error_ = error_of(region.states);
         ++header.end_pass;
         header.seconds += seconds_since(pass_start);
@@ -88,34 +89,16 @@ Result<GatheredRegion> RegionGatherer::gather(std::size_t number) {
 }
 
 Result<RegionStates> RegionGatherer::states_of(std::size_t region, std::span<const std::uint32_t> texels) const {
-    const BakePlan& plan = setup_.plan;
-    const BakeOptions& options = setup_.options;
     RegionStates fresh(texels.size(), setup_.layout.floats());
-    fresh.header.bake = setup_.hash;
-    fresh.header.texels = hash_of_texels(texels);
-    fresh.header.first_pass = fresh.header.end_pass = plan.first_pass;
-    fresh.header.samples_per_pass = options.samples_per_pass;
-    fresh.header.shard_by = static_cast<std::uint32_t>(options.shard.by);
-    fresh.header.shard_index = options.shard.index;
-    fresh.header.shard_count = options.shard.count;
-    fresh.header.first_place = plan.regions[region].first;
-    fresh.header.end_place = plan.regions[region].end;
+    fresh.header = expected_header(setup_, region, texels);
     if (checkpoint_.empty()) return fresh;
-
     const auto path = region_file(checkpoint_, region);
     std::error_code code;
     if (!std::filesystem::exists(path, code)) return fresh;
-    if (session_.start == BakeSession::Start::fresh) return earlier_checkpoint(path);
     auto kept = RegionStates::read(path);
     if (!kept) return kept.error();
-    const RegionHeader &is = kept->header, &wanted = fresh.header;
-    if (is.bake != wanted.bake)
-        return Error{path.string() +
-                     ": belongs to another scene or other options; bake into another folder, or remove it"};
-    if (is.texels != wanted.texels || is.sites != wanted.sites || is.floats != wanted.floats ||
-        is.samples_per_pass != wanted.samples_per_pass || is.first_pass != wanted.first_pass)
-        return Error{path.string() +
-                     ": was made with another --memory, --shard or --samples-per-pass; use the same again"};
+    if (auto status = check_header(path, kept->header, fresh.header); !status) return status.error();
+    kept->header.instruction_sets = joined(kept->header.instruction_sets, fresh.header.instruction_sets);
     return kept;
 }
 

@@ -14,7 +14,7 @@ std::vector<Rgb> page_irradiance(const LightmapPage& page, const PageChannels& c
     assert(normals.size() == page.size() && page.planes.size() == channels.count());
     std::vector<Rgb> result(page.size());
     const auto read = [&](std::size_t begin, std::size_t end) {
-        // Where nothing was baked, any direction will do.
+        // Use an arbitrary direction where nothing was baked.
         Directions directions(end - begin);
         const auto is_baked = [&](std::size_t i) { return !(normals[i] == Vec3{}); };
         for (std::size_t i = begin; i < end; ++i)

@@ -1,4 +1,4 @@
-// From states to pages: coefficients, irradiance and error of each texel, and statistics over all.
+// Converts states to pages: coefficients, irradiance and error of each texel, and statistics over all.
 #pragma once
 
 #include "bake/gather/encoding.h"

@@ -1,10 +1,14 @@
 // A bake as a folder: all files are written together, and read again.
+#include "bake/write/bake_folder.h"
+
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "bake/write/bake_fields.h"
-#include "bake/write/files_together.h"
+#include "bake/write/bake_files.h"
 #include "bake/write/manifest.h"
 #include "bake/write/page_files.h"
 #include "bake/write/page_textures.h"
@@ -85,7 +89,7 @@ Status add_scene(FilesTogether& files, const Scene& scene, Manifest& manifest) {
     manifest.scene.reset();
     const auto copy = encode_scene_copy(scene, manifest);
     if (!copy) {
-        manifest.warnings.push_back("there is no copy of the scene: " + copy.error().message);
+        manifest.warnings.push_back("the scene was not copied: " + copy.error().message);
     } else {
         manifest.scene = k_scene_name;
         if (auto status = files.add_text(k_scene_name, *copy); !status) return status;
@@ -96,42 +100,85 @@ Status add_scene(FilesTogether& files, const Scene& scene, Manifest& manifest) {
     return files.add(k_environment_name, [&](StagedFile& file) { return write_exr(file, *scene.environment); });
 }
 
-}  // namespace
-
-Result<Manifest> write_bake(const fs::path& folder, const Bake& bake, const WriteBakeOptions& options) {
-    assert(bake.pages.size() == bake.normals.size());
-    const auto textures = PageTextures::make(bake.manifest.options.codec, options.storages);
-    if (!textures) return textures.error();
-    auto files = FilesTogether::in(folder, options.stop);
-    if (!files) return files.error();
-    Manifest manifest = bake.manifest;
-    auto status = choose_precision(bake, manifest);
-    if (status) status = add_pages(*files, bake, *textures, manifest);
-    if (status) status = add_probes(*files, bake, manifest);
-    if (status && options.scene != nullptr) status = add_scene(*files, *options.scene, manifest);
-    if (status) status = files->add_text(k_manifest_name, to_json_text(manifest));
-    if (status) status = files->commit();
-    return status ? Result<Manifest>(std::move(manifest)) : status.error();
+/// Returns whether a bake may have a file of this name.
+bool is_name_of_bake(std::string_view name) {
+    for (const char* each : {k_scene_name, k_environment_name, k_probes_name, k_probe_coefficients_name})
+        if (name == each) return true;
+    return name.starts_with("page-") && (name.ends_with(".exr") || name.ends_with(".ktx2"));
 }
 
-Result<Bake> read_bake(const fs::path& path) {
-    auto manifest = read_manifest(path);
+/// Removes what the bake in the folder has and the new one does not, and the report, which shows the older one.
+void remove_older(FilesTogether& files, const Manifest& manifest) {
+    files.remove(k_report_name);
+    const auto older = read_manifest(files.folder());
+    if (!older) return;
+    for (const FileEntry& entry : older->files) {
+        const auto same = [&](const FileEntry& e) { return e.file == entry.file; };
+        if (is_name_of_bake(entry.file) && std::none_of(manifest.files.begin(), manifest.files.end(), same))
+            files.remove(entry.file);
+    }
+}
+
+Result<Bake> read_files(const fs::path& path, const ManifestText& text) {
+    auto manifest = manifest_from_json(text.text, text.name);
     if (!manifest) return manifest.error();
-    const fs::path folder = bake_folder(path);
+    const auto folder = CommittedFolder::open(bake_folder(path));
+    if (!folder) return folder.error();
     Bake bake;
     bake.manifest = *std::move(manifest);
+    const BakeFiles files(*folder, bake.manifest);
     for (const auto& baked : bake.manifest.pages) {
-        auto page = read_page(folder / baked.file, bake.channels(), bake.manifest.width, bake.manifest.height);
+        const auto file = files.checked(baked.file);
+        if (!file) return file.error();
+        auto page = read_page(*file, bake.channels(), bake.manifest.width, bake.manifest.height);
         if (!page) return page.error();
         bake.pages.push_back(std::move(page->page));
         bake.normals.push_back(std::move(page->normals));
     }
     if (bake.manifest.probes) {
-        auto probes = read_probes(folder / *bake.manifest.probes);
+        auto probes = read_probes(files, *bake.manifest.probes);
         if (!probes) return probes.error();
         bake.probes = *std::move(probes);
     }
     return bake;
+}
+
+}  // namespace
+
+Result<Manifest> write_bake(FilesTogether files, const Bake& bake, const WriteBakeOptions& options) {
+    assert(bake.pages.size() == bake.normals.size());
+    const auto textures = PageTextures::make(bake.manifest.options.codec, options.storages, options.container);
+    if (!textures) return textures.error();
+    Manifest manifest = bake.manifest;
+    const std::size_t others = files.entries().size();
+    auto status = choose_precision(bake, manifest);
+    if (status) status = add_pages(files, bake, *textures, manifest);
+    if (status) status = add_probes(files, bake, manifest);
+    if (status && options.scene != nullptr) status = add_scene(files, *options.scene, manifest);
+    manifest.files.assign(files.entries().begin() + static_cast<std::ptrdiff_t>(others), files.entries().end());
+    if (status) status = files.add_text(k_manifest_name, to_json_text(manifest));
+    if (!status) return status.error();
+    remove_older(files, manifest);
+    status = files.commit();
+    return status ? Result<Manifest>(std::move(manifest)) : status.error();
+}
+
+Result<Manifest> write_bake(const fs::path& folder, const Bake& bake, const WriteBakeOptions& options) {
+    auto files = FilesTogether::in(folder);
+    return files ? write_bake(*std::move(files), bake, options) : files.error();
+}
+
+Result<Bake> read_bake(const fs::path& path) {
+    // A writer may replace the bake meanwhile: what is read belongs together if bake.json is the same after it.
+    constexpr int k_attempts = 3;
+    for (int i = 0; i < k_attempts; ++i) {
+        const auto before = read_manifest_text(path);
+        if (!before) return before.error();
+        auto bake = read_files(path, *before);
+        const auto after = read_manifest_text(path);
+        if (after && after->text == before->text) return bake;
+    }
+    return Error{path.string() + ": changes all the time; read it when its bake is done"};
 }
 
 }  // namespace lobelia

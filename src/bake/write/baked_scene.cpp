@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "bake/write/bake_files.h"
 #include "bake/write/manifest.h"
 #include "scene/check_scene.h"
 #include "scene/embedded.h"
@@ -13,17 +14,21 @@ namespace lobelia {
 Result<LoadedScene> read_baked_scene(const std::filesystem::path& path, const Manifest& manifest,
                                      const SceneSource& light) {
     // File names of a manifest have no folders; only `light` may name files elsewhere.
-    const std::filesystem::path folder = bake_folder(path);
+    const auto folder = CommittedFolder::open(bake_folder(path));
+    if (!folder) return folder.error();
+    const BakeFiles files(*folder, manifest);
     SceneSource source = light;
     source.uv_set = SceneSource().uv_set;
-    auto links = InputOptions::Links::followed;
     if (!source.environment && manifest.environment) {
-        source.environment = (folder / *manifest.environment).string();
-        links = InputOptions::Links::refused;
+        const auto environment = files.checked(*manifest.environment);
+        if (!environment) return environment.error();
+        source.environment = environment->string();
     }
     if (manifest.scene) {
-        source.path = (folder / *manifest.scene).string();
-        return load_scene_copy(source, links);
+        const auto copy = files.checked(*manifest.scene);
+        if (!copy) return copy.error();
+        source.path = copy->string();
+        return load_scene(source);
     }
 
     // Without a copy, the scene's name may be that of an embedded scene, never that of a file.
@@ -33,7 +38,7 @@ Result<LoadedScene> read_baked_scene(const std::filesystem::path& path, const Ma
                                  path.string(), manifest.scene_name)};
     LoadedScene loaded;
     loaded.scene = *std::move(scene);
-    if (auto status = set_environment(loaded, source, links); !status) return status.error();
+    if (auto status = set_environment(loaded, source); !status) return status.error();
     return loaded;
 }
 

@@ -1,4 +1,4 @@
-// What a bake's irradiance is, texel by texel.
+// Evaluates a bake's irradiance, texel by texel.
 #include "bake/write/irradiance_files.h"
 
 #include <fmt/format.h>
@@ -51,7 +51,7 @@ Result<std::vector<std::filesystem::path>> write_irradiance(const std::filesyste
         if (!made) return made.error();
         evaluator = std::move(*made);
     } else if (!options.evaluator.empty()) {
-        return Error{"--evaluator: this bake is of irradiance alone, there is nothing to evaluate"};
+        return Error{"--evaluator: this bake holds irradiance only and has no coefficients to evaluate"};
     }
 
     // Write it for each page.

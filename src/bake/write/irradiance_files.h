@@ -1,4 +1,4 @@
-// What a bake's irradiance is, texel by texel, for whoever holds another renderer's bake against it.
+// Irradiance of a bake, texel by texel, for comparison with the bakes of other renderers.
 #pragma once
 
 #include <filesystem>
@@ -12,8 +12,9 @@ struct IrradianceOptions {
     std::string evaluator;  ///< another reading of the same basis; empty: the codec's own
 };
 
-/// For each page a file of the page's name in `folder`, which is made if it is missing: float32 channels R, G, B, the
-/// irradiance E [W/m^2] at the shading normal, and validity. Texels without a normal hold 0 in all. Returns the files.
+/// Writes for each page a file of the page's name into `folder`, which is made if it is missing: float32 channels R, G,
+/// B, the irradiance E [W/m^2] at the shading normal, and validity. Texels without a normal hold 0 in all. Returns the
+/// files.
 [[nodiscard]] Result<std::vector<std::filesystem::path>> write_irradiance(const std::filesystem::path& folder,
                                                                           const Bake& bake,
                                                                           const IrradianceOptions& options = {});

@@ -3,21 +3,20 @@
 
 #include <fmt/format.h>
 
+#include "bake/check_job.h"
 #include "bake/session/checkpoint.h"
 #include "bake/write/bake_fields.h"
 #include "bake/write/page_files.h"
-#include "bake/write/stored_codec.h"
+#include "io/commit_journal.h"
 #include "io/folders.h"
+#include "io/printable.h"
 #include "io/read_file.h"
 
 namespace lobelia {
 namespace {
 
-constexpr std::uint64_t k_version = 2;
+constexpr std::uint64_t k_job_version = 2;
 constexpr std::uint64_t k_any_size = std::uint64_t{1} << 40;
-constexpr std::uint64_t k_most_side = 16384;
-
-std::filesystem::path job_file(const std::filesystem::path& checkpoint) { return checkpoint / "job.json"; }
 
 /// A switch as true or false.
 void flag(auto& archive, const char* name, Switch& value) {
@@ -45,9 +44,9 @@ void fields(auto& archive, ProbeOptions& options) {
     archive.number("spacing", options.spacing);
     archive.group("box", options.box);
     archive.text("codec", options.codec);
-    archive.whole("levels", options.levels, 0, 6);
+    archive.whole("levels", options.levels, 0, 1u << 30);
     archive.number("tolerance", options.tolerance);
-    archive.whole("samples", options.samples, 1, k_any_u32);
+    archive.whole("samples", options.samples, 0, k_any_u32);
 }
 
 void fields(auto& archive, SceneSource& scene) {
@@ -71,57 +70,104 @@ void fields(auto& archive, FinishOptions& steps) {
 
 void fields(auto& archive, ReportOptions& report) {
     flag(archive, "write", report.write);
-    archive.whole("samples", report.samples, 1, k_any_u32);
-    archive.whole("width", report.width, 1, k_most_side);
-    archive.whole("height", report.height, 1, k_most_side);
+    archive.whole("samples", report.samples, 0, k_any_u32);
+    archive.whole("width", report.width, 0, k_any_size);
+    archive.whole("height", report.height, 0, k_any_size);
 }
 
-/// Threads and time limits belong to each session; the regions of a checkpoint depend on the memory.
+/// Threads and time limits belong to each session; the regions of a checkpoint depend on the memory. Ranges: check().
 void fields(auto& archive, BakeJob& job) {
     archive.group("scene", job.scene);
     archive.text("codec", job.bake.codec);
     archive.choice("frame", job.bake.frame, k_frame_names);
-    archive.whole("width", job.bake.atlas.width, 1, k_most_side);
-    archive.whole("height", job.bake.atlas.height, 1, k_most_side);
+    archive.whole("width", job.bake.atlas.width, 0, k_any_size);
+    archive.whole("height", job.bake.atlas.height, 0, k_any_size);
     archive.whole("memory", job.bake.memory, 0, k_any_u64);
     archive.group("bake", job.bake);
     archive.group("finish", job.finish);
     archive.group("probes", job.probes);
     archive.choice("precision", job.precision, k_precision_names);
     archive.texts("storages", job.storages);
+    archive.text("container", job.container);
     archive.group("report", job.report);
 }
 
-Status save_job(const std::filesystem::path& checkpoint, const BakeJob& job) {
-    JsonFieldWriter writer;
-    writer.whole("lobelia_bake_job", k_version, 0, k_version);
-    BakeJob copy = job;
-    fields(writer, copy);
-    const std::string text = writer.object.dump(1) + "\n";
-    const FileContent file{job_file(checkpoint), text};
-    return write_into_folder(checkpoint, {&file, 1});
+void fields(auto& archive, KeptJob& kept) {
+    std::uint64_t version = k_job_version;
+    archive.whole("lobelia_bake_job", version, 0, k_any_u64);
+    fields(archive, kept.job);
+    archive.texts("rebaked", kept.rebaked);
 }
 
-Result<BakeJob> read_job(const std::filesystem::path& folder) {
-    const std::string path = job_file(checkpoint_folder(folder)).string();
+std::string to_json_text(const KeptJob& kept) {
+    JsonFieldWriter writer;
+    KeptJob copy = kept;
+    fields(writer, copy);
+    return json_text(writer.object, 1) + "\n";
+}
+
+Status save_job(const std::filesystem::path& folder, const BakeJob& job) {
+    // JSON holds UTF-8 only, and a path must come back byte by byte.
+    for (const std::string& path : {job.scene.path, job.scene.environment.value_or("")})
+        if (!is_utf8(path))
+            return Error{path + ": a bake cannot be continued with a path that is not UTF-8; rename the file"};
+    const std::string text = to_json_text(KeptJob{job, {}});
+    const FileContent file{folder / k_job_name, text};
+    return write_into_folder(checkpoint_folder(folder), {&file, 1});
+}
+
+bool holds_job(const std::filesystem::path& folder) {
+    std::error_code code;
+    const auto committed = CommittedFolder::open(folder);
+    return committed && std::filesystem::exists(committed->path(k_job_name), code);
+}
+
+Result<KeptJob> read_kept_job(const std::filesystem::path& folder) {
+    const auto committed = CommittedFolder::open(folder);
+    if (!committed) return committed.error();
+    const std::string path = committed->path(k_job_name).string();
     std::error_code code;
     if (!std::filesystem::exists(path, code))
         return Error{folder.string() + ": holds no bake to continue: " + path + " does not exist"};
     constexpr std::uint64_t k_most_bytes = std::uint64_t{1} << 20;
-    const auto file = InputFile::open_below(folder, job_file(checkpoint_folder({})), k_most_bytes);
+    const auto file = open_in_checkpoint(path, k_most_bytes);
     if (!file) return file.error();
     const auto text = read_text(*file);
     if (!text) return text.error();
     return read_json(*text, path, [&](const JsonPlace& top) {
-        if (top.at("lobelia_bake_job").whole(0, k_any_u64) != k_version)
-            top.at("lobelia_bake_job").refuse(fmt::format("this program reads version {}", k_version));
-        BakeJob job;
-        JsonFieldReader reader(top);
-        fields(reader, job);
-        for (const std::string& codec : {job.bake.codec, job.probes.value_or(ProbeOptions()).codec})
-            if (const auto name = stored_codec_name(codec); !codec.empty() && !name) top.refuse(name.error().message);
-        return job;
+        if (top.at("lobelia_bake_job").whole(0, k_any_u64) != k_job_version)
+            top.at("lobelia_bake_job").refuse(fmt::format("this program reads version {}", k_job_version));
+        KeptJob kept;
+        JsonFieldReader reader(top, JsonFieldReader::Unknown::refused);
+        fields(reader, kept);
+        reader.finish();
+        if (const auto valid = check(kept.job); !valid) top.refuse(valid.error().message);
+        for (const std::string& codec : {kept.job.bake.codec, kept.job.probes.value_or(ProbeOptions()).codec})
+            if (const auto name = parse_codec_name(codec); !codec.empty() && !name) top.refuse(name.error().message);
+        return kept;
     });
+}
+
+Result<BakeJob> read_job(const std::filesystem::path& folder) {
+    auto kept = read_kept_job(folder);
+    return kept ? Result<BakeJob>(std::move(kept->job)) : kept.error();
+}
+
+Status check_same_options(const Manifest& manifest, const BakeJob& job) {
+    const auto text = [](BakeOptions options) {
+        options.most_seconds.reset();
+        options.only_object.reset();
+        options.shard = {};
+        JsonFieldWriter writer;
+        fields(writer, options);
+        return writer.object.dump() + options.codec;
+    };
+    const auto& [width, height] = std::pair(job.bake.atlas.width, job.bake.atlas.height);
+    if (text(manifest.options) == text(job.bake) && manifest.width == width && manifest.height == height) return Done{};
+    return Error{
+        fmt::format("the finished bake ({}, {} samples) has other options than the job of its checkpoint ({}, {} "
+                    "samples), which is unfinished; complete it first with --resume",
+                    manifest.options.codec, manifest.options.samples, job.bake.codec, job.bake.samples)};
 }
 
 }  // namespace lobelia

@@ -12,6 +12,7 @@ namespace lobelia {
 
 inline constexpr int k_bake_version = 2;
 inline constexpr const char* k_manifest_name = "bake.json";
+inline constexpr const char* k_report_name = "bake.html";
 
 /// Makes the manifest of a bake before its statistics and files are known.
 [[nodiscard]] Manifest make_manifest(const Scene& scene, const Atlas& atlas, const BakeOptions& options);
@@ -28,5 +29,11 @@ inline constexpr const char* k_manifest_name = "bake.json";
 
 /// Reads the bake.json in a folder, or the file itself.
 [[nodiscard]] Result<Manifest> read_manifest(const std::filesystem::path& path);
+
+/// The text of bake.json in a folder or at a path, and the path to name in messages.
+struct ManifestText {
+    std::string text, name;
+};
+[[nodiscard]] Result<ManifestText> read_manifest_text(const std::filesystem::path& path);
 
 }  // namespace lobelia

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "io/read_exr_channels.h"
@@ -36,7 +37,7 @@ Status check_values(const std::filesystem::path& path, const ExrPlanes& file, st
     const auto share = [](float v) { return v >= 0 && v <= 1; };
     if (auto s = check_plane(path, "validity", file.planes[channels], file.width, "not in [0, 1]", share); !s) return s;
     const auto number = [](float v) { return v >= 0 && v <= static_cast<float>(k_most_charts) && v == std::floor(v); };
-    return check_plane(path, "chart", file.planes[channels + 1], file.width, "no chart's number", number);
+    return check_plane(path, "chart", file.planes[channels + 1], file.width, "not a valid chart number", number);
 }
 
 }  // namespace
@@ -71,9 +72,7 @@ Result<PageContent> read_page(const std::filesystem::path& path, const PageChann
                               std::size_t height) {
     // Read what should be there.
     ReadChannelsOptions options{.wanted = page_channel_names(channels), .most_pixels = width * height};
-    auto opened = InputFile::open(path, within_folder());
-    if (!opened) return opened.error();
-    auto file = read_exr_channels(*std::move(opened), options);
+    auto file = read_exr_channels(path, options);
     if (!file) return file.error();
     if (file->width != width || file->height != height)
         return Error{fmt::format("{}: {} x {} texels, but the manifest says {} x {}", path.string(), file->width,

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include "core/storage/layout_text.h"
-#include "io/write_ktx2.h"
 #include "lobelia/codec.h"
 
 namespace lobelia {
@@ -24,8 +23,8 @@ Metadata metadata_of(const TextureEntry& texture, const std::string& origin) {
             {"lobelia.origin", origin}};
 }
 
-Status write_texture(StagedFile& file, const PackedTexture& packed, Metadata metadata) {
-    return write_ktx2(file, {packed.format, packed.width, packed.height, packed.data, std::move(metadata)});
+TextureFile texture_file(const PackedTexture& packed, Metadata metadata) {
+    return {packed.format, packed.width, packed.height, packed.data, std::move(metadata)};
 }
 
 /// Fractions in [0, 1] as 8 bits.
@@ -40,8 +39,12 @@ PackedTexture packed_validity(const LightmapPage& page) {
 }  // namespace
 
 Result<PageTextures> PageTextures::make(const std::string& codec,
-                                        const std::optional<std::vector<std::string>>& storages) {
+                                        const std::optional<std::vector<std::string>>& storages,
+                                        std::string_view container) {
     PageTextures textures;
+    const auto found_container = find_texture_container(container);
+    if (!found_container) return found_container.error();
+    textures.container_ = *found_container;
     if (codec.empty()) {
         if (storages && !storages->empty())
             return Error{"storage \"" + storages->front() + "\": plain irradiance has no coefficients to store"};
@@ -67,19 +70,21 @@ Status PageTextures::add(FilesTogether& files, const LightmapPage& page, const s
     const CoefficientPlanes planes(page.width, page.height, std::span(page.planes), traits_.count);
     for (const Storage* storage : storages_) {
         const auto take = [&](const TextureLayout::Texture& layout, const PackedTexture& packed) {
-            const std::string file = fmt::format("{}.{}.{}.ktx2", stem, storage->name, layout.name);
+            const std::string file = fmt::format("{}.{}.{}.{}", stem, storage->name, layout.name, container_->name);
             const TextureEntry& texture =
                 entry.textures.emplace_back(TextureEntry{std::string(storage->name), file, layout, packed.scale});
-            return files.add(
-                file, [&](StagedFile& staged) { return write_texture(staged, packed, metadata_of(texture, origin)); });
+            return files.add(file, [&](StagedFile& staged) {
+                return write_texture(*container_, staged, texture_file(packed, metadata_of(texture, origin)));
+            });
         };
         if (Status status = pack_each(storage->layout(traits_), planes, take, files.stop().flag()); !status)
             return status;
     }
-    entry.validity = stem + ".validity.ktx2";
+    entry.validity = fmt::format("{}.validity.{}", stem, container_->name);
     return files.add(*entry.validity, [&](StagedFile& staged) {
-        return write_texture(staged, packed_validity(page),
-                             {{"lobelia.channels", "validity"}, {"lobelia.origin", origin}});
+        const PackedTexture packed = packed_validity(page);
+        return write_texture(*container_, staged,
+                             texture_file(packed, {{"lobelia.channels", "validity"}, {"lobelia.origin", origin}}));
     });
 }
 

@@ -1,11 +1,10 @@
 // Probes as two files: probes.json says what there is, probes.bin holds the coefficients.
 #include "bake/write/probe_files.h"
 
-#include "bake/write/stored_codec.h"
-
 #include <fmt/format.h>
 
 #include <bit>
+#include <cassert>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -19,7 +18,7 @@ namespace {
 using nlohmann::ordered_json;
 
 constexpr std::uint64_t k_most_probes = 1u << 26, k_most_cells = 1u << 26, k_most_coefficients = 4096;
-constexpr std::uint64_t k_most_bytes = std::uint64_t{16} << 30;
+constexpr std::uintmax_t k_most_mebibytes = 16384;
 static_assert(std::endian::native == std::endian::little, "files are little-endian");
 
 ordered_json triple(Vec3 v) { return {shortest(v.x), shortest(v.y), shortest(v.z)}; }
@@ -63,7 +62,7 @@ std::vector<float> read_shares(const JsonPlace& place, std::size_t size) {
 
 void read_codec(const JsonPlace& top, ProbeSet& probes) {
     probes.codec = top.at("codec").text();
-    const auto name = stored_codec_name(probes.codec);
+    const auto name = parse_codec_name(probes.codec);
     if (!name) top.at("codec").refuse(name.error().message);
     const auto basis = make_basis(name->basis);
     if (!basis) top.at("codec").refuse(basis.error().message);
@@ -91,13 +90,8 @@ std::string read_description(const JsonPlace& top, ProbeSet& probes) {
     return top.at("file").file_name();
 }
 
-Result<std::string> read_probe_file(const std::filesystem::path& path) {
-    const auto file = InputFile::open(path, within_folder(k_most_bytes));
-    return file ? read_text(*file) : file.error();
-}
-
 Status read_coefficients(const std::filesystem::path& path, ProbeSet& probes) {
-    const auto bytes = read_probe_file(path);
+    const auto bytes = read_text(path, k_most_mebibytes);
     if (!bytes) return bytes.error();
     const std::size_t values = 3 * probes.size() * probes.coefficients_per_probe;
     if (bytes->size() != values * sizeof(float))
@@ -135,7 +129,7 @@ std::string to_json_text(const ProbeSet& probes, std::string_view binary_file) {
                                    {"validity", singles(probes.validity)},
                                    {"back_faces", singles(probes.back_faces)},
                                    {"cells", std::move(cells)}};
-    return document.dump(-1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+    return json_text(document) + "\n";
 }
 
 Status write_probe_coefficients(StagedFile& file, const ProbeSet& probes) {
@@ -155,13 +149,16 @@ Result<ProbeDescription> probes_from_json(std::string_view text, const std::stri
     });
 }
 
-Result<ProbeSet> read_probes(const std::filesystem::path& path) {
-    const auto text = read_probe_file(path);
+Result<ProbeSet> read_probes(const BakeFiles& files, const std::string& name) {
+    const auto path = files.checked(name);
+    if (!path) return path.error();
+    const auto text = read_text(*path, k_most_mebibytes);
     if (!text) return text.error();
-    auto description = probes_from_json(*text, path.string());
+    auto description = probes_from_json(*text, path->string());
     if (!description) return description.error();
-    if (auto status = read_coefficients(path.parent_path() / description->file, description->probes); !status)
-        return status.error();
+    const auto coefficients = files.checked(description->file);
+    if (!coefficients) return coefficients.error();
+    if (auto status = read_coefficients(*coefficients, description->probes); !status) return status.error();
     return std::move(description->probes);
 }
 

@@ -1,4 +1,4 @@
-// bake.json, read: anybody may have written it.
+// Reads bake.json, which is untrusted.
 #include <fmt/format.h>
 
 #include <charconv>
@@ -8,23 +8,29 @@
 #include "bake/write/bake_fields.h"
 #include "bake/write/manifest.h"
 #include "bake/write/page_files.h"
-#include "bake/write/stored_codec.h"
 #include "core/storage/layout_text.h"
+#include "io/commit_journal.h"
 #include "io/read_file.h"
 #include "lobelia/storage.h"
 
 namespace lobelia {
 namespace {
 
-constexpr std::uint64_t k_most_side = 65536, k_most_pages = 4096, k_most_objects = 1u << 24, k_most_textures = 65536,
-                        k_most_warnings = 4096;
+constexpr std::uint64_t k_largest_side = 65536, k_most_pages = 4096, k_most_objects = 1u << 24, k_most_textures = 65536,
+                        k_most_warnings = 4096, k_most_files = std::uint64_t{1} << 20;
+
+std::uint64_t hexadecimal(const JsonPlace& place, std::size_t digits) {
+    const std::string text = place.text();
+    std::uint64_t value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value, 16);
+    if (text.size() != digits || error != std::errc() || end != text.data() + text.size())
+        place.refuse(fmt::format("not {} hexadecimal digits", digits));
+    return value;
+}
 
 void read_scene(const JsonPlace& scene, Manifest& m) {
     m.scene_name = scene.at("name").text();
-    const std::string hash = scene.at("hash").text();
-    const auto [end, error] = std::from_chars(hash.data(), hash.data() + hash.size(), m.scene_hash, 16);
-    if (hash.size() != 16 || error != std::errc() || end != hash.data() + hash.size())
-        scene.at("hash").refuse("not 16 hexadecimal digits");
+    m.scene_hash = hexadecimal(scene.at("hash"), 16);
     if (const auto file = scene.find("file")) m.scene = file->file_name();
     if (const auto file = scene.find("environment")) m.environment = file->file_name();
 }
@@ -38,7 +44,7 @@ void read_codec(const JsonPlace& codec, Manifest& m) {
         if (stated != 0) codec.at("coefficients").refuse("there is no codec, so there can be no coefficients");
         return;
     }
-    const auto name = stored_codec_name(m.options.codec);
+    const auto name = parse_codec_name(m.options.codec);
     if (!name) codec.at("name").refuse(name.error().message);
     const auto basis = make_basis(name->basis);
     if (!basis) codec.at("name").refuse(basis.error().message);
@@ -48,7 +54,7 @@ void read_codec(const JsonPlace& codec, Manifest& m) {
     if (stated != m.coefficients)
         codec.at("coefficients").refuse(fmt::format("{} has {} coefficients", name->basis, m.coefficients));
     if ((*basis)->domain() == Domain::hemisphere && m.options.frame != Frame::tangent)
-        codec.at("frame").refuse(name->basis + " is a basis of the hemisphere, which stands in the tangent frame");
+        codec.at("frame").refuse(name->basis + " is a hemispherical basis, which requires the tangent frame");
 }
 
 /// The textures that storages make of the codec's coefficients, by storage and name.
@@ -86,7 +92,8 @@ class KnownTextures {
 };
 
 TextureEntry read_texture(const JsonPlace& place, KnownTextures& known) {
-    // What the channels hold follows from the storage. Should that change one day, old files must not be misread.
+    // The storage determines the content of the channels. Refuse other contents, so that later versions cannot misread
+    // old files.
     const TextureLayout::Texture& layout = known.at(place);
     place.expect(nlohmann::json::parse(texture_json(layout)));
     const auto scale = static_cast<float>(place.at("scale").number_in(0x1p-149, 0x1p127));
@@ -102,8 +109,8 @@ PageEntry read_page_entry(const JsonPlace& place, KnownTextures& known) {
 }
 
 void read_layout(const JsonPlace& layout, Manifest& m) {
-    m.width = layout.at("width").whole(1, k_most_side);
-    m.height = layout.at("height").whole(1, k_most_side);
+    m.width = layout.at("width").whole(1, k_largest_side);
+    m.height = layout.at("height").whole(1, k_largest_side);
     m.options.atlas.width = m.width;
     m.options.atlas.height = m.height;
     m.precision = static_cast<Precision>(layout.at("precision").one_of(k_precision_names));
@@ -153,6 +160,12 @@ void refuse_repeated_files(const JsonPlace& top, const Manifest& m) {
     if (m.probes) add(*m.probes);
 }
 
+FileEntry read_file_entry(const JsonPlace& place) {
+    FileEntry entry{place.at("file").file_name(), place.at("size").whole(0, k_any_u64 >> 1), 0};
+    entry.crc32 = static_cast<std::uint32_t>(hexadecimal(place.at("crc32"), 8));
+    return entry;
+}
+
 Manifest read_all(const JsonPlace& top) {
     if (!top.find("lobelia_bake")) top.refuse("no \"lobelia_bake\" version; is it from `lobelia bake`?");
     const auto version = top.at("lobelia_bake").whole(0, k_any_u32);
@@ -171,6 +184,8 @@ Manifest read_all(const JsonPlace& top) {
     if (const auto finish = top.find("finish"))
         for (const auto& step : finish->list(k_most_warnings)) m.finish.push_back(step.text());
     if (const auto probes = top.find("probes")) m.probes = probes->file_name();
+    if (const auto files = top.find("files"))
+        for (const auto& file : files->list(k_most_files)) m.files.push_back(read_file_entry(file));
     JsonFieldReader(top).group("options", m.options);
     JsonFieldReader(top).group("statistics", m.statistics);
     refuse_repeated_files(top, m);
@@ -188,17 +203,25 @@ std::filesystem::path bake_folder(const std::filesystem::path& path) {
     return std::filesystem::is_directory(path, code) ? path : path.parent_path();
 }
 
-Result<Manifest> read_manifest(const std::filesystem::path& path) {
-    // Whoever names the file itself may name a link; what lies in a folder must not be one.
+Result<ManifestText> read_manifest_text(const std::filesystem::path& path) {
+    // A caller who names the file itself may name a link; what lies in a folder must not be one.
     std::error_code code;
-    constexpr std::uint64_t k_most_bytes = std::uint64_t{1} << 30;
-    const auto file = std::filesystem::is_directory(path, code)
-                          ? InputFile::open(path / k_manifest_name, within_folder(k_most_bytes))
-                          : InputFile::open(path, {.most_bytes = k_most_bytes});
+    const bool is_folder = std::filesystem::is_directory(path, code);
+    const std::string name = is_folder ? k_manifest_name : path.filename().string();
+    const auto folder = CommittedFolder::open(bake_folder(path));
+    if (!folder) return folder.error();
+    const auto file =
+        InputFile::open(folder->path(name), {.most_bytes = std::uint64_t{1} << 30,
+                                             .links = is_folder ? InputOptions::Links::refused
+                                                                : InputOptions::Links::followed});
     if (!file) return file.error();
-    const auto text = read_text(*file);
-    if (!text) return text.error();
-    return manifest_from_json(*text, file->name());
+    auto text = read_text(*file);
+    return text ? Result<ManifestText>({*std::move(text), (bake_folder(path) / name).string()}) : text.error();
+}
+
+Result<Manifest> read_manifest(const std::filesystem::path& path) {
+    const auto text = read_manifest_text(path);
+    return text ? manifest_from_json(text->text, text->name) : text.error();
 }
 
 }  // namespace lobelia

@@ -6,6 +6,7 @@
 #include <cassert>
 #include <nlohmann/json.hpp>
 
+#include "io/json.h"
 #include "lobelia/gltf.h"
 
 namespace lobelia {
@@ -15,13 +16,14 @@ Result<std::string> encode_scene_copy(const Scene& scene, const Manifest& manife
     using nlohmann::ordered_json;
     const Vec2 per_texel{1.0f / static_cast<float>(manifest.width), 1.0f / static_cast<float>(manifest.height)};
     GltfWriteOptions options;
-    options.scene_extras = ordered_json{{"lobelia_bake", k_manifest_name}}.dump();
+    options.scene_extras = json_text(ordered_json{{"lobelia_bake", k_manifest_name}});
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
         std::string& extras = options.object_extras.emplace_back();
         std::vector<Vec2>& page_uv = options.lightmap_uv.emplace_back();
         const AtlasPlacement& p = manifest.objects[i].placement;
         if (!p.baked) continue;
-        extras = ordered_json{{"lobelia_lightmap", {{"page", p.page}, {"file", manifest.pages[p.page].file}}}}.dump();
+        extras =
+            json_text(ordered_json{{"lobelia_lightmap", {{"page", p.page}, {"file", manifest.pages[p.page].file}}}});
         for (const Vec2 uv : scene.meshes[scene.objects[i].mesh].lightmap_uv)
             page_uv.push_back(
                 {(p.scale.x * uv.x + p.offset.x) * per_texel.x, (p.scale.y * uv.y + p.offset.y) * per_texel.y});

@@ -12,7 +12,7 @@ namespace lobelia {
 /// "page-0.exr"}}, the scene's the manifest. Errors as encode_glb's.
 [[nodiscard]] Result<std::string> encode_scene_copy(const Scene& scene, const Manifest& manifest);
 
-/// Where objects of the copy lie: texels of their pages from the copy's own lightmap UVs.
+/// Returns the placement of an object of the copy: texels of its page from the copy's own lightmap UVs.
 [[nodiscard]] AtlasPlacement placement_in_copy(const Manifest& manifest, std::size_t object);
 
 }  // namespace lobelia

@@ -12,7 +12,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr const char* k_version = LOBELIA_VERSION;
+constexpr const char* k_program_version = LOBELIA_VERSION;
 
 ordered_json or_null(const std::optional<std::string>& text) { return text ? ordered_json(*text) : ordered_json(); }
 
@@ -20,6 +20,10 @@ ordered_json to_json(const TextureEntry& texture) {
     ordered_json json = {{"storage", texture.storage}, {"file", texture.file}, {"scale", shortest(texture.scale)}};
     json.update(ordered_json::parse(texture_json(texture.layout)));
     return json;
+}
+
+ordered_json to_json(const FileEntry& entry) {
+    return {{"file", entry.file}, {"size", entry.size}, {"crc32", fmt::format("{:08x}", entry.crc32)}};
 }
 
 ordered_json to_json(const PageEntry& page) {
@@ -40,7 +44,7 @@ ordered_json to_json(const ObjectEntry& object, const Manifest& m) {
             {"texels", {p.texels.x0, p.texels.y0, p.texels.x1, p.texels.y1}}};
 }
 
-/// For people; readers may rely on the version alone.
+/// Writes conventions for people; readers may rely on the version alone.
 ordered_json conventions(const Manifest& m) {
     const bool tangent = m.options.frame == Frame::tangent;
     return {
@@ -65,7 +69,7 @@ ordered_json all_fields(T value) {
 
 Manifest make_manifest(const Scene& scene, const Atlas& atlas, const BakeOptions& options) {
     Manifest m;
-    m.program = k_version;
+    m.program = k_program_version;
     m.scene_name = scene.name;
     m.scene_hash = scene_hash(scene);
     m.coefficients = options.codec.empty() ? 0 : make_codec(options.codec).value().basis().size();
@@ -79,8 +83,9 @@ Manifest make_manifest(const Scene& scene, const Atlas& atlas, const BakeOptions
 
 std::string to_json_text(const Manifest& m) {
     const CodecName name = m.options.codec.empty() ? CodecName{} : parse_codec_name(m.options.codec).value();
-    ordered_json pages = ordered_json::array(), objects = ordered_json::array();
+    ordered_json pages = ordered_json::array(), objects = ordered_json::array(), files = ordered_json::array();
     for (const auto& page : m.pages) pages.push_back(to_json(page));
+    for (const auto& file : m.files) files.push_back(to_json(file));
     for (const auto& object : m.objects) objects.push_back(to_json(object, m));
     const ordered_json document = {{"lobelia_bake", k_bake_version},
                                    {"program", m.program},
@@ -106,10 +111,11 @@ std::string to_json_text(const Manifest& m) {
                                      {"pages", std::move(pages)}}},
                                    {"objects", std::move(objects)},
                                    {"probes", or_null(m.probes)},
+                                   {"files", std::move(files)},
                                    {"options", all_fields(m.options)},
                                    {"finish", m.finish},
                                    {"statistics", all_fields(m.statistics)}};
-    return document.dump(1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+    return json_text(document, 1) + "\n";
 }
 
 }  // namespace lobelia

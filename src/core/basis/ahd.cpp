@@ -44,6 +44,8 @@ namespace {
 constexpr int k_squarings = 3;
 const auto k_lobe_factor = static_cast<float>((8 + 1) / (2 * k_pi));
 
+constexpr std::size_t k_coefficients = 3, k_accumulated = 9;
+
 using Direction = std::array<double, 3>;
 
 /// A_0^2 + 3 A_1^2 + 5 A_2^2 over 4 pi; with all bands it is 2 pi / 3, 0.8 % more.
@@ -98,14 +100,15 @@ Direction across(const Direction& a, const Direction& b) {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-/// The direction of the largest saving near `d`: steps along a shrinking cross on the sphere, in double precision, for
-/// near the top there is little to tell directions by.
+/// Returns the direction of the largest saving near `d`: steps along a shrinking cross on the sphere, in double
+/// precision, because values near the maximum hardly differ.
 Direction searched(const Target& target, Direction d) {
     double saved = target.at(d).saved;
     for (double step = 0.4; step > 1e-6;) {
         const Direction u = unit(across(std::abs(d[2]) < 0.9 ? Direction{0, 0, 1} : Direction{1, 0, 0}, d));
         const Direction v = across(d, u);
         Direction best = d;
+        bool better = false;
         for (const auto& [along, across_it] : {std::pair{step, 0.0}, {0.0, step}, {-step, 0.0}, {0.0, -step}}) {
             Direction next;
             for (std::size_t i = 0; i < 3; ++i) next[i] = d[i] + along * u[i] + across_it * v[i];
@@ -114,9 +117,10 @@ Direction searched(const Target& target, Direction d) {
             if (gained > saved) {
                 saved = gained;
                 best = next;
+                better = true;
             }
         }
-        if (best == d) step /= 2;
+        if (!better) step /= 2;
         d = best;
     }
     return d;
@@ -126,9 +130,10 @@ class Punctual final : public Evaluator {
   public:
     [[nodiscard]] std::string name() const override { return "punctual"; }
     [[nodiscard]] Accuracy accuracy() const override {
-        return {"everywhere", "no error: it is what the coefficients mean", Reading::of_its_own, 1e-5};
+        return {"everywhere", "exact by definition", Reading::of_its_own, 1e-5};
     }
     void signed_irradiance(std::span<const Rgb> c, DirectionView normals, MutableColourView out) const override {
+        check_evaluation(k_coefficients, c, normals, out);
         HWY_DYNAMIC_DISPATCH(HighlightRows)
         (c[0] * static_cast<float>(k_pi), c[1], {c[2].r, c[2].g, c[2].b}, 0, normals, out);
     }
@@ -148,6 +153,8 @@ std::shared_ptr<const LinearBasis> AmbientHighlight::accumulated() const {
 }
 
 void AmbientHighlight::fit(std::span<const Rgb> accumulated, std::span<Rgb> c) const {
+    check_equal("accumulated coefficients", accumulated.size(), k_accumulated);
+    check_equal("coefficients", c.size(), k_coefficients);
     std::fill(c.begin(), c.end(), Rgb{});
     const Vec3 towards{luminance(accumulated[3]), luminance(accumulated[1]), luminance(accumulated[2])};
     const Target target(accumulated);
@@ -163,6 +170,7 @@ void AmbientHighlight::fit(std::span<const Rgb> accumulated, std::span<Rgb> c) c
 }
 
 void AmbientHighlight::radiance(std::span<const Rgb> c, DirectionView directions, MutableColourView out) const {
+    check_evaluation(k_coefficients, c, directions, out);
     HWY_DYNAMIC_DISPATCH(HighlightRows)
     (c[0], c[1] * k_lobe_factor, {c[2].r, c[2].g, c[2].b}, k_squarings, directions, out);
 }
@@ -174,6 +182,7 @@ std::shared_ptr<const Evaluator> AmbientHighlight::evaluator(std::string_view na
 }
 
 Basis::Rotated AmbientHighlight::rotated(const Rotation& r, std::span<const Rgb> c) const {
+    check_equal("coefficients", c.size(), k_coefficients);
     const Vec3 d = rotate(r, {c[2].r, c[2].g, c[2].b});
     return {std::make_shared<AmbientHighlight>(), {c[0], c[1], {d.x, d.y, d.z}}};
 }

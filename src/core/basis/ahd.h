@@ -1,5 +1,5 @@
 // Ambient and highlight direction: a constant and one directional light, found from degree-2 harmonics.
-// Mitchell et al. 2006 and Hooker 2016 tell of its use in lightmaps; the fit is ours.
+// Mitchell et al. 2006 and Hooker 2016 describe its use in lightmaps; the fit is ours.
 #pragma once
 
 #include "lobelia/bases.h"

@@ -47,8 +47,11 @@ HWY_EXPORT(SidesRows);
 
 namespace {
 
+constexpr std::size_t k_sides = 6, k_accumulated = 9;
+
 void read_sides(std::span<const Rgb> c, const Rotation& cube, float scale, DirectionView normals,
                 MutableColourView out) {
+    check_evaluation(k_sides, c, normals, out);
     HWY_DYNAMIC_DISPATCH(SidesRows)(c.data(), cube, scale, normals, out);
 }
 
@@ -57,7 +60,7 @@ class Squares final : public Evaluator {
     explicit Squares(const Rotation& cube_from_domain) : cube_from_domain_(cube_from_domain) {}
     [[nodiscard]] std::string name() const override { return "squares"; }
     [[nodiscard]] Accuracy accuracy() const override {
-        return {"everywhere", "no error: it is what the coefficients mean", Reading::of_its_own, 1e-5};
+        return {"everywhere", "exact by definition", Reading::of_its_own, 1e-5};
     }
     void signed_irradiance(std::span<const Rgb> c, DirectionView normals, MutableColourView out) const override {
         read_sides(c, cube_from_domain_, 1, normals, out);
@@ -80,6 +83,8 @@ std::shared_ptr<const LinearBasis> AmbientCubeIrradiance::accumulated() const {
 }
 
 void AmbientCubeIrradiance::fit(std::span<const Rgb> accumulated, std::span<Rgb> c) const {
+    check_equal("accumulated coefficients", accumulated.size(), k_accumulated);
+    check_equal("coefficients", c.size(), k_sides);
     // Squared clamped cosines of the six sides against each other.
     Matrix gram(36);
     for (std::size_t i = 0; i < 6; ++i)
@@ -114,6 +119,7 @@ std::shared_ptr<const Evaluator> AmbientCubeIrradiance::evaluator(std::string_vi
 }
 
 Basis::Rotated AmbientCubeIrradiance::rotated(const Rotation& r, std::span<const Rgb> c) const {
+    check_equal("coefficients", c.size(), k_sides);
     const Rotation& m = cube_from_domain_;
     const Rotation turned{rotate(r, m[0]), rotate(r, m[1]), rotate(r, m[2])};
     return {std::make_shared<AmbientCubeIrradiance>(turned), {c.begin(), c.end()}};

@@ -14,7 +14,7 @@ class AmbientCubeIrradiance final : public FittedBasis {
     [[nodiscard]] static Result<std::shared_ptr<const Basis>> from_name(std::string_view name);
 
     [[nodiscard]] std::size_t size() const override { return 6; }
-    /// E / pi in that direction, for want of anything better.
+    /// Evaluates radiance as E / pi in that direction, because the coefficients do not determine it.
     void radiance(std::span<const Rgb> c, DirectionView directions, MutableColourView out) const override;
     [[nodiscard]] std::shared_ptr<const LinearBasis> accumulated() const override;
     /// The least error of E over all normals with c >= 0.

@@ -17,9 +17,11 @@ using icosahedron::faces;
 using icosahedron::vertices;
 
 constexpr std::size_t k_vertices = 12, k_functions = 3 * k_vertices;
+/// Coefficients of AmbientDiceYCoCg: three numbers at each vertex, and two slopes, three to a coefficient.
+constexpr std::size_t k_ycocg = k_vertices + 2 * k_vertices / 3;
 
-/// What is constant of a face: planes whose distances are the barycentric coordinates, and how each edge that leaves a
-/// corner lies in the tangents of that corner.
+/// Constants of a face: planes whose distances are the barycentric coordinates, and the direction of each edge from a
+/// corner in the tangents of that corner.
 struct Face {
     std::array<std::size_t, 3> corner{};
     Vec3 middle;
@@ -56,7 +58,8 @@ const std::array<Face, 20>& dice_faces() {
 }
 
 const Face& face_of(Vec3 w) {
-    const Face* best = nullptr;
+    // A direction of NaN has the first face.
+    const Face* best = dice_faces().data();
     float most = -2;
     for (const Face& face : dice_faces()) {
         const float along = dot(face.middle, w);
@@ -154,7 +157,7 @@ SphereRule face_rule() {
 
 constexpr std::size_t k_degree = 8;
 
-/// What is integrated once, in the frame of the dice.
+/// Integrals that are computed once, in the frame of the dice.
 struct Tables {
     Eigen::MatrixXd products;             ///< 48 x 48, of all functions
     std::vector<double> integrals;        ///< 48
@@ -211,6 +214,7 @@ class DiceConvolution final : public Evaluator {
     [[nodiscard]] std::string name() const override { return "convolution"; }
     [[nodiscard]] Accuracy accuracy() const override { return {"everywhere", "2e-3 of the largest E"}; }
     void signed_irradiance(std::span<const Rgb> c, DirectionView normals, MutableColourView out) const override {
+        check_evaluation(chroma_ == Chroma::patches ? k_functions : k_ycocg, c, normals, out);
         const Coefficients e = convolved(c);
         for_each_part(normals, k_block_size, [&](DirectionView block, std::size_t begin) {
             harmonics_.sum(e, TurnedBlock(block, dice_from_domain_).view(), out.part(begin, block.size));
@@ -296,10 +300,12 @@ std::shared_ptr<const Evaluator> AmbientDice::evaluator(std::string_view name) c
 }
 
 Basis::Rotated AmbientDice::rotated(const Rotation& r, std::span<const Rgb> c) const {
+    check_equal("coefficients", c.size(), size());
     return {std::make_shared<AmbientDice>(turned_dice(dice_from_domain_, r)), {c.begin(), c.end()}};
 }
 
 void AmbientDiceYCoCg::radiance(std::span<const Rgb> c, DirectionView directions, MutableColourView out) const {
+    check_evaluation(k_ycocg, c, directions, out);
     const Expanded all = expanded(c);
     for (std::size_t j = 0; j < directions.size; ++j) {
         const Vec3 w = rotate(dice_->dice_from_domain(), direction_at(directions, j));
@@ -318,6 +324,8 @@ void AmbientDiceYCoCg::radiance(std::span<const Rgb> c, DirectionView directions
 }
 
 void AmbientDiceYCoCg::fit(std::span<const Rgb> accumulated, std::span<Rgb> c) const {
+    check_equal("accumulated coefficients", accumulated.size(), k_functions);
+    check_equal("coefficients", c.size(), k_ycocg);
     Eigen::Matrix<double, k_functions, 3> ycocg;
     for (Eigen::Index i = 0; i < ycocg.rows(); ++i) {
         const Rgb v = accumulated[static_cast<std::size_t>(i)];
@@ -345,6 +353,7 @@ std::shared_ptr<const Evaluator> AmbientDiceYCoCg::evaluator(std::string_view na
 }
 
 Basis::Rotated AmbientDiceYCoCg::rotated(const Rotation& r, std::span<const Rgb> c) const {
+    check_equal("coefficients", c.size(), size());
     return {std::make_shared<AmbientDiceYCoCg>(turned_dice(dice_->dice_from_domain(), r)), {c.begin(), c.end()}};
 }
 

@@ -23,7 +23,7 @@ class AmbientDice final : public LinearBasis {
     [[nodiscard]] std::string description() const override;
     [[nodiscard]] Domain domain() const override { return Domain::sphere; }
     [[nodiscard]] bool is_non_negative() const override { return false; }
-    /// By quadrature over the faces, to 1e-9.
+    /// Computed by quadrature over the faces, to 1e-9.
     [[nodiscard]] Matrix gram() const override;
     [[nodiscard]] std::vector<double> integrals() const override;
     /// convolution: by way of harmonics up to degree 8.

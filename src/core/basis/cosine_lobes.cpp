@@ -149,7 +149,7 @@ class SquaredCosines final : public LinearEvaluator {
     }
     [[nodiscard]] std::string name() const override { return "squares"; }
     [[nodiscard]] Accuracy accuracy() const override {
-        return {"everywhere", "no error: it is a model", Reading::of_its_own, furnace_};
+        return {"everywhere", "none stated: a model", Reading::of_its_own, furnace_};
     }
     [[nodiscard]] std::size_t size() const override { return shares_.size(); }
     void values(DirectionView block, float* rows) const override {
@@ -158,10 +158,12 @@ class SquaredCosines final : public LinearEvaluator {
         kernels::transform_rows(shares.data(), size(), at_axes_.data(), block.size, rows);
     }
     void signed_irradiance(std::span<const Rgb> c, DirectionView normals, MutableColourView out) const override {
+        check_evaluation(size(), c, normals, out);
         const AtAxes at_axes = irradiance_at_axes(c);
         evaluate(shares_, std::span(at_axes).first(size()), normals, out);
     }
     [[nodiscard]] Rgb signed_irradiance_at(std::span<const Rgb> c, Vec3 normal) const override {
+        check_equal("coefficients", c.size(), size());
         const AtAxes at_axes = irradiance_at_axes(c);
         return evaluate(shares_, std::span(at_axes).first(size()), normal);
     }
@@ -287,6 +289,7 @@ std::shared_ptr<const Evaluator> CosineLobes::evaluator(std::string_view name) c
 }
 
 Basis::Rotated CosineLobes::rotated(const Rotation& r, std::span<const Rgb> c) const {
+    check_equal("coefficients", c.size(), size());
     std::vector<Vec3> turned;
     for (const Vec3& axis : axes_) turned.push_back(rotate(r, axis));
     return {std::make_shared<CosineLobes>(kind_, std::move(turned)), {c.begin(), c.end()}};

@@ -22,7 +22,7 @@ inline constexpr std::array<double, 5> k_fourth_irradiance = {1.0 / 16, 1.0 / 6,
 
 class CosineLobes final : public LinearBasis {
   public:
-    /// What sets one of the family apart.
+    /// Parameters of one basis of the family.
     struct Kind {
         std::string_view name, description;
         Domain domain;

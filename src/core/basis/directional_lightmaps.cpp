@@ -18,7 +18,7 @@ constexpr std::array k_kinds = {std::pair{Kind::sh1h, "sh1h"}, std::pair{Kind::i
                                 std::pair{Kind::enlighten, "enlighten"},
                                 std::pair{Kind::enlighten_rgb, "enlighten-rgb"}};
 
-/// From degree-1 coefficients to E and back: E = pi Y_0 c_0 + 2 pi / 3 sqrt(3 / 4 pi) (c_3, c_1, c_2) . n.
+/// Converts degree-1 coefficients to E and back: E = pi Y_0 c_0 + 2 pi / 3 sqrt(3 / 4 pi) (c_3, c_1, c_2) . n.
 const double k_constant_factor = std::sqrt(k_pi) / 2;
 const double k_slope_factor = std::sqrt(k_pi / 3);
 
@@ -103,6 +103,7 @@ class LinearInNormal final : public Evaluator {
         return {"normals above the horizon", "1e-6 of the largest E (float32 rounding)"};
     }
     void signed_irradiance(std::span<const Rgb> c, DirectionView normals, MutableColourView out) const override {
+        check_evaluation(basis_.size(), c, normals, out);
         std::array<ZonalQuadratic, 3> functions;
         const auto e = basis_.irradiance(c);
         for (std::size_t k = 0; k < 3; ++k)
@@ -173,6 +174,8 @@ std::vector<Meaning> DirectionalLightmap::meanings() const {
 }
 
 void DirectionalLightmap::fit(std::span<const Rgb> accumulated, std::span<Rgb> c) const {
+    check_equal("accumulated coefficients", accumulated.size(), kind_ == Kind::sh1h ? 4 : 5);
+    check_equal("coefficients", c.size(), size());
     if (kind_ == Kind::sh1h) return fit_dark_below(accumulated, c);
     const auto moments = moments_from(accumulated);
     std::array<LinearIrradiance, 3> e;
@@ -210,6 +213,7 @@ std::array<LinearIrradiance, 3> DirectionalLightmap::irradiance(std::span<const 
 
 void DirectionalLightmap::radiance(std::span<const Rgb> c, DirectionView directions, MutableColourView out) const {
     // The radiance of degree 1 whose irradiance this is: E = pi R0 + 2 pi / 3 R1 . n for L = R0 + R1 . w.
+    check_evaluation(size(), c, directions, out);
     std::array<ZonalQuadratic, 3> functions;
     const auto e = irradiance(c);
     const auto slope = [](double of_irradiance) { return static_cast<float>(of_irradiance * 3 / (2 * k_pi)); };
@@ -246,6 +250,7 @@ std::vector<float> DirectionalLightmap::lead_bounds() const {
 }
 
 Basis::Rotated DirectionalLightmap::rotated(const Rotation& r, std::span<const Rgb> c) const {
+    check_equal("coefficients", c.size(), size());
     std::vector<Rgb> turned(c.begin(), c.end());
     if (kind_ == Kind::enlighten) {
         const Vec3 d = rotate(r, {c[1].r, c[1].g, c[1].b});

@@ -11,14 +11,16 @@
 
 namespace lobelia {
 
-/// What the fits below need of the light, over the hemisphere: radiance against 1, z, and against the irradiances of x,
-/// y and z (see HorizonIrradiance), the first moments of E over the upper normals.
+/// Moments of the light that the fits below need, over the hemisphere: radiance against 1, z, and against the
+/// irradiances of x, y and z (see HorizonIrradiance), the first moments of E over the upper normals.
 class NormalMoments final : public LinearBasis {
   public:
     [[nodiscard]] std::size_t size() const override { return 5; }
     void values(DirectionView block, float* rows) const override;
     [[nodiscard]] std::string name() const override { return "normal-moments"; }
-    [[nodiscard]] std::string description() const override { return "what directional lightmaps are fitted from"; }
+    [[nodiscard]] std::string description() const override {
+        return "moments from which directional lightmaps are fitted";
+    }
     [[nodiscard]] Domain domain() const override { return Domain::hemisphere; }
     [[nodiscard]] bool is_non_negative() const override { return false; }
     [[nodiscard]] Matrix gram() const override;
@@ -38,7 +40,7 @@ struct LinearIrradiance {
 class DirectionalLightmap final : public FittedBasis {
   public:
     /// sh1h: c = the integrals of L Y over the hemisphere, degree 1: as if the surface were black below its horizon.
-    /// irradz: degree-1 coefficients whose E is exact at the surface's normal and nearest to the truth, by least
+    /// irradz: degree-1 coefficients whose E is exact at the surface's normal and nearest to the reference, by least
     /// squares, at the others above. enlighten: E at the surface's normal, and D with E(n) = E (1 + n . D) / (1 + D_z),
     /// |D| <= 1, of the luminance. enlighten_rgb: E, then D_x, D_y, D_z with a component for each channel.
     enum class Kind { sh1h, irradz, enlighten, enlighten_rgb };
@@ -57,7 +59,8 @@ class DirectionalLightmap final : public FittedBasis {
     [[nodiscard]] std::vector<std::string> evaluator_names() const override { return {"linear", "linear-signed"}; }
     [[nodiscard]] std::shared_ptr<const Evaluator> evaluator(std::string_view name) const override;
     [[nodiscard]] Rotated rotated(const Rotation& r, std::span<const Rgb> c) const override;
-    /// Of sh1h those of any light that is >= 0. The others can have directions without a mean, or store ratios already.
+    /// Returns bounds for sh1h, valid for any light that is >= 0; none for the others, which can have directions
+    /// without a mean, or store ratios already.
     [[nodiscard]] std::vector<float> lead_bounds() const override;
 
     /// E of each channel as the coefficients have it.

@@ -24,6 +24,8 @@ constexpr std::size_t k_few = 128;
 template <class At>
 void one_by_one(CoefficientPointers c, DirectionView directions, MutableColourView out, const At& at) {
     const std::size_t count = c.size() / 3;
+    check_equal("planes of coefficients", c.size(), 3 * count);
+    check_equal("colours for the directions", out.size, directions.size);
     const Scratch memory(c.size());
     // Three consecutive floats are a colour.
     Rgb* const one = new (memory.data()) Rgb[count];
@@ -35,7 +37,8 @@ void one_by_one(CoefficientPointers c, DirectionView directions, MutableColourVi
 
 void evaluate_each(const FunctionSet& functions, CoefficientPointers c, DirectionView directions,
                    MutableColourView out) {
-    assert(c.size() == 3 * functions.size() && out.size == directions.size);
+    check_equal("planes of coefficients", c.size(), 3 * functions.size());
+    check_equal("colours for the directions", out.size, directions.size);
     const Scratch rows(functions.size() * k_block_size);
     for_each_part(directions, k_block_size, [&](DirectionView block, std::size_t begin) {
         functions.values(block, rows.data());
@@ -66,14 +69,13 @@ Rgb Basis::radiance_at(std::span<const Rgb> c, Vec3 direction) const {
 
 void evaluate_many(const FunctionSet& functions, std::span<const std::span<const Rgb>> c, DirectionView directions,
                    std::span<const MutableColourView> out) {
-    assert(c.size() == out.size());
+    check_equal("outputs for the coefficient vectors", out.size(), c.size());
+    for (std::size_t i = 0; i < c.size(); ++i) check_evaluation(functions.size(), c[i], directions, out[i]);
     const Scratch rows(functions.size() * k_block_size);
     for_each_part(directions, k_block_size, [&](DirectionView block, std::size_t begin) {
         functions.values(block, rows.data());
-        for (std::size_t i = 0; i < c.size(); ++i) {
-            assert(c[i].size() == functions.size() && out[i].size == directions.size);
+        for (std::size_t i = 0; i < c.size(); ++i)
             kernels::combine(rows.data(), functions.size(), c[i], out[i].part(begin, block.size));
-        }
     });
 }
 
@@ -82,7 +84,7 @@ void evaluate(const FunctionSet& functions, std::span<const Rgb> c, DirectionVie
 }
 
 Rgb evaluate(const FunctionSet& functions, std::span<const Rgb> c, Vec3 direction) {
-    assert(c.size() == functions.size());
+    check_equal("coefficients", c.size(), functions.size());
     if (c.size() <= k_few) {
         alignas(64) float values[k_few];  // whole vectors in one cache line each
         functions.values_at(direction, values);
@@ -123,6 +125,7 @@ void radiance(const Basis& basis, CoefficientPointers c, DirectionView direction
 void signed_irradiance_many(const Evaluator& evaluator, std::span<const std::span<const Rgb>> c, DirectionView normals,
                             std::span<const MutableColourView> out) {
     if (evaluator.weights()) return evaluate_many(*evaluator.weights(), c, normals, out);
+    check_equal("outputs for the coefficient vectors", out.size(), c.size());
     for (std::size_t i = 0; i < c.size(); ++i) evaluator.signed_irradiance(c[i], normals, out[i]);
 }
 

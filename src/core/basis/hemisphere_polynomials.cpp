@@ -77,7 +77,7 @@ class ExactAboveHorizon final : public LinearEvaluator {
     [[nodiscard]] std::size_t size() const override { return irradiance_.size(); }
     void values(DirectionView block, float* rows) const override {
         irradiance_.values(block, rows);
-        // From monomials to the basis: row 2 is of 2z - 1.
+        // Convert monomials to the basis: row 2 belongs to 2z - 1.
         const auto k0 = static_cast<float>(HemispherePolynomials::factor(0)),
                    k1 = static_cast<float>(HemispherePolynomials::factor(1)),
                    k2 = static_cast<float>(HemispherePolynomials::factor(2));
@@ -125,7 +125,7 @@ void HorizonIrradiance::values(DirectionView block, float* rows) const {
 }
 
 std::shared_ptr<const LinearBasis> hemisphere_polynomials(std::size_t count) {
-    assert(count == 4 || count == 6);
+    check_equal("polynomials, unless they are 4", count, count == 4 ? 4 : 6);
     return std::make_shared<HemispherePolynomials>(count);
 }
 
@@ -165,6 +165,7 @@ std::shared_ptr<const Evaluator> HemispherePolynomials::evaluator(std::string_vi
 }
 
 Basis::Rotated HemispherePolynomials::rotated(const Rotation& r, std::span<const Rgb> c) const {
+    check_equal("coefficients", c.size(), size());
     // About z by the angle t: (x, y) as a vector, (x^2 - y^2, 2xy) as one turned by 2t.
     const float cosine = r[0].x, sine = r[1].x;
     std::vector<Rgb> turned(c.begin(), c.end());

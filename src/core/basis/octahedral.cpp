@@ -139,8 +139,9 @@ std::size_t OctahedralMap::index(Vec3 direction) const {
         u = folded;
     }
     const auto place = [&](float x) {
-        const auto cell = static_cast<long>((x + 1) / 2 * static_cast<float>(resolution));
-        return static_cast<std::size_t>(std::clamp(cell, 0L, static_cast<long>(resolution) - 1));
+        // A NaN becomes 0.
+        const float cell = std::max(0.0f, (x + 1) / 2 * static_cast<float>(resolution));
+        return static_cast<std::size_t>(std::min(cell, static_cast<float>(resolution - 1)));
     };
     return place(v) * resolution + place(u);
 }
@@ -164,7 +165,8 @@ OctahedralMap::Cell OctahedralMap::cell(std::size_t index) const {
 
 OctahedralTexels::OctahedralTexels(std::size_t resolution, const Rotation& map_from_domain)
     : map_{resolution}, map_from_domain_(map_from_domain) {
-    assert(resolution >= 2 && resolution % 2 == 0);
+    check_equal("remainder of the resolution over 2", resolution % 2, 0);
+    check_range("resolution", resolution, 2, k_highest_resolution);
     for (std::size_t i = 0; i < map_.size(); ++i) {
         const OctahedralMap::Cell cell = map_.cell(i);
         std::array<double, 3> mean{};
@@ -180,7 +182,6 @@ OctahedralTexels::OctahedralTexels(std::size_t resolution, const Rotation& map_f
 }
 
 std::shared_ptr<const LinearBasis> octahedral_texels(std::size_t resolution) {
-    assert(resolution >= 2 && resolution % 2 == 0 && resolution <= k_highest_resolution);
     return std::make_shared<OctahedralTexels>(resolution);
 }
 
@@ -206,10 +207,12 @@ void OctahedralTexels::values_at(Vec3 direction, float* values) const {
 }
 
 Rgb OctahedralTexels::radiance_at(std::span<const Rgb> c, Vec3 direction) const {
+    check_equal("coefficients", c.size(), size());
     return c[map_.index(rotate(map_from_domain_, direction))];
 }
 
 void OctahedralTexels::radiance(std::span<const Rgb> c, DirectionView directions, MutableColourView out) const {
+    check_evaluation(size(), c, directions, out);
     for (std::size_t j = 0; j < directions.size; ++j)
         set_entry(out, j, OctahedralTexels::radiance_at(c, direction_at(directions, j)));
 }
@@ -236,6 +239,7 @@ std::shared_ptr<const Evaluator> OctahedralTexels::evaluator(std::string_view na
 }
 
 Basis::Rotated OctahedralTexels::rotated(const Rotation& r, std::span<const Rgb> c) const {
+    check_equal("coefficients", c.size(), size());
     // w' = R w is looked up at M R^T w'.
     Rotation turned;
     for (std::size_t i = 0; i < 3; ++i) turned[i] = rotate(r, map_from_domain_[i]);

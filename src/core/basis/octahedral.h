@@ -60,7 +60,6 @@ class OctahedralTexels final : public LinearBasis {
         std::array<float, 6> variance{};
         float solid_angle = 0;
     };
-    [[nodiscard]] const std::vector<Centroid>& centroids() const { return centroids_; }
 
   private:
     OctahedralMap map_;

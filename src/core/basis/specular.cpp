@@ -6,6 +6,9 @@
 namespace lobelia {
 namespace {
 
+/// The index of a direction has 32 bits.
+constexpr std::size_t k_most_directions = std::size_t{1} << 24;
+
 class SampledSpecular final : public SpecularEvaluator {
   public:
     SampledSpecular(std::shared_ptr<const Basis> basis, std::size_t count) : basis_(std::move(basis)), count_(count) {}
@@ -14,6 +17,7 @@ class SampledSpecular final : public SpecularEvaluator {
         return {"any alpha and view", "that of " + std::to_string(count_) + " directions", Reading::of_radiance, 0};
     }
     void reflected(std::span<const Rgb> c, const SpecularPoints& points, MutableColourView out) const override {
+        check_specular(basis_->size(), c, points, out);
         Directions directions(count_);
         Colours radiance(count_);
         for (std::size_t i = 0; i < points.size(); ++i) {
@@ -32,7 +36,7 @@ class SampledSpecular final : public SpecularEvaluator {
     [[nodiscard]] Rgb sum(const std::vector<ggx::Ray>& rays, DirectionView directions, ColourView radiance) const {
         Rgb total;
         for (std::size_t j = 0; j < rays.size(); ++j) {
-            // A basis over the hemisphere says nothing of what lies below.
+            // A basis over the hemisphere is undefined below the horizon.
             if (basis_->domain() == Domain::hemisphere && directions.channel(2)[j] < 0) continue;
             const Rgb L = colour_at(radiance, j);
             total = total + Rgb{std::max(0.0f, L.r), std::max(0.0f, L.g), std::max(0.0f, L.b)} * rays[j].weight;
@@ -60,7 +64,7 @@ void specular(const SpecularEvaluator& evaluator, std::span<const Rgb> c, const 
 }
 
 std::shared_ptr<const SpecularEvaluator> make_sampled_specular(std::shared_ptr<const Basis> basis, std::size_t count) {
-    assert(count > 0);
+    check_range("directions", count, 1, k_most_directions);
     return std::make_shared<SampledSpecular>(std::move(basis), count);
 }
 

@@ -98,7 +98,7 @@ constexpr std::array k_bases = {
                AmbientDice::from_name,
                {.family = "Ambient dice, luminance and chroma",
                 .formula = "Y as in dice-bezier, Co and Cg linear on each face; of 60 floats a direction needs 15",
-                .good_at = "what dice-bezier is good at, where light has one colour or two",
+                .good_at = "as dice-bezier, for light of one or two colours",
                 .bad_at = "small coloured sources, whose colour spreads over a face"}},
     BasisEntry{
         "ahd",
@@ -126,7 +126,7 @@ constexpr std::array k_bases = {
         {.family = "Octahedral texels",
          .formula = "L(w) = c_i of the cell that holds w: w / (|x| + |y| + |z|), its lower half folded out, on a grid "
                     "of N x N",
-         .good_at = "radiance of anything, at any resolution that the budget allows; adding a sample touches one cell",
+         .good_at = "any radiance, at any resolution that the budget allows; adding a sample touches one cell",
          .bad_at = "bytes; noise, since few samples fall into each cell",
          .encoders = "running-average moments"},
         k_octahedral_patterns},
@@ -135,8 +135,7 @@ constexpr std::array k_bases = {
                {.family = "Radiosity normal mapping",
                 .formula = "L(w) = sum of C_i max(0, w . p_i)^2",
                 .good_at = "normal-mapped lightmaps in three colours, each a lightmap of its own",
-                .bad_at = "light along the normal, which no direction faces; a constant sky comes out darker than it "
-                          "is by `squares`",
+                .bad_at = "light along the normal, which no direction faces; `squares` underestimates a constant sky",
                 .furnace_bias = 0.06}},
     // No joint norm: it takes functions whole, but these have no meaning below the horizon.
     BasisEntry{"h4 h6",
@@ -148,13 +147,12 @@ constexpr std::array k_bases = {
                            "the surface's own normal is exact after least squares",
                 .bad_at = "small and bright sources; use where a normal may point below the surface",
                 .encoders = "projection progressive moments least-squares regularised matrix-gain"}},
-    BasisEntry{
-        "sh1h",
-        DirectionalLightmap::from_name,
-        {.family = "Degree-1 harmonics of the hemisphere",
-         .formula = "L(w) = sum of c_i Y_i(w), degree 1, c_i = integral of L Y_i above the surface",
-         .good_at = "bakes that add samples up and nothing else: E(n) = integral of L / 4 + (integral of L w) . n / 2",
-         .bad_at = "light from the side: degree 1 is too smooth for a horizon"}},
+    BasisEntry{"sh1h",
+               DirectionalLightmap::from_name,
+               {.family = "Degree-1 harmonics of the hemisphere",
+                .formula = "L(w) = sum of c_i Y_i(w), degree 1, c_i = integral of L Y_i above the surface",
+                .good_at = "bakes that only sum samples: E(n) = integral of L / 4 + (integral of L w) . n / 2",
+                .bad_at = "light from the side: degree 1 is too smooth for a horizon"}},
     BasisEntry{
         "irradz",
         DirectionalLightmap::from_name,
@@ -162,7 +160,7 @@ constexpr std::array k_bases = {
          .formula = "E(n) = e0 + e . n, E exact at the surface's normal, nearest by least squares at the others above",
          .good_at =
              "lightmaps under normal maps in 12 floats, evaluated like degree-1 harmonics: flat surfaces are exact",
-         .bad_at = "radiance, which only serves to carry the irradiance"}},
+         .bad_at = "radiance, which only represents the irradiance"}},
     BasisEntry{"enlighten",
                DirectionalLightmap::from_name,
                {.family = "Directional lightmap",
@@ -174,7 +172,7 @@ constexpr std::array k_bases = {
                {.family = "Directional lightmap, a direction for each channel",
                 .formula = "E(n) = E (1 + n . D) / (1 + D_z), E and D for each channel",
                 .good_at = "as above, with coloured light from several sides",
-                .bad_at = "twelve floats, as many as degree-1 harmonics, which are evaluated with less"}},
+                .bad_at = "twelve floats, as many as degree-1 harmonics, which are cheaper to evaluate"}},
 };
 
 template <MomentSolver solver>

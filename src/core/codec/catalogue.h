@@ -1,4 +1,4 @@
-// THE lists of bases and encoders, with a card for each entry. Whatever must know all of them iterates over these.
+// THE lists of bases and encoders, with a card for each entry. Code that must know all of them iterates over these.
 #pragma once
 
 #include "lobelia/codec.h"

@@ -69,8 +69,8 @@ Result<Codec> put_together(CodecName name, const BasisPtr& basis) {
     return Codec(std::move(name), *encoder, *evaluator);
 }
 
-/// Clamps where `negative` says so. What needs no clamping is handed on as it came: to take a colour apart and put it
-/// together again costs as much as evaluating it.
+/// Clamps if `negative` requires it. Returns colours that need no clamping unchanged: splitting and rebuilding a colour
+/// costs as much as evaluating it.
 Rgb cut(Rgb c, Negative negative) {
     const bool below = c.r < 0 || c.g < 0 || c.b < 0;
     if (below && negative == Negative::clamped) [[unlikely]]

@@ -8,7 +8,7 @@ class FittedEncoder final : public Encoder {
   public:
     FittedEncoder(std::shared_ptr<const FittedBasis> basis_of, std::shared_ptr<const Encoder> accumulating)
         : Encoder(basis_of), fitted_(*basis_of), accumulating_(std::move(accumulating)) {
-        assert(accumulating_->basis().size() == fitted_.accumulated()->size());
+        check_equal("functions that are accumulated", accumulating_->basis().size(), fitted_.accumulated()->size());
     }
 
     [[nodiscard]] std::size_t state_size() const override { return accumulating_->state_size(); }
@@ -22,6 +22,7 @@ class FittedEncoder final : public Encoder {
         accumulating_->merge(state, other);
     }
     void solve(std::span<const float> state, std::span<Rgb> c) const override {
+        check_equal("coefficients", c.size(), fitted_.size());
         std::vector<Rgb> accumulated(accumulating_->basis().size());
         accumulating_->solve(state, accumulated);
         fitted_.fit(accumulated, c);

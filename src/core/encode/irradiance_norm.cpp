@@ -9,7 +9,7 @@
 namespace lobelia {
 namespace {
 
-/// Whether the rule integrates each function's square.
+/// Returns whether the rule integrates each function's square.
 bool resolves(const LinearBasis& basis, const Matrix& gram, const SphereRule& rule) {
     const std::vector<double> squares = integrals_of_squares(basis, rule);
     for (std::size_t i = 0; i < basis.size(); ++i) {

@@ -44,6 +44,7 @@ class MomentEncoder final : public LinearEncoder {
     }
 
     void add(std::span<float> state, SampleView samples) const override {
+        check_state(state);
         const std::size_t n = basis().size();
         float* gram = state.data() + header() + 3 * n;
         add_moments(state, samples, [&](SampleView block, const float* rows, float share) {
@@ -54,15 +55,20 @@ class MomentEncoder final : public LinearEncoder {
     }
 
     void add_sources(std::span<float> state, SampleView sources) const override {
+        check_state(state);
         add_moments(state, sources, [](SampleView, const float*, float) {});
     }
 
     void merge(std::span<float> state, std::span<const float> other) const override {
+        check_state(state);
+        check_state(other);
         for (std::size_t i = 0; i < state.size(); ++i) state[i] += other[i];
     }
 
     void solve(std::span<const float> state, std::span<Rgb> c) const override {
+        check_state(state);
         const std::size_t n = basis().size();
+        check_equal("coefficients", c.size(), n);
         if (!(state[k_weight] > 0)) {
             std::fill(c.begin(), c.end(), Rgb{});
             return;

@@ -22,6 +22,7 @@ class SequentialEncoder : public LinearEncoder {
     [[nodiscard]] bool is_non_negative() const override { return sign_ == Sign::non_negative; }
 
     void add(std::span<float> state, SampleView samples) const final {
+        check_state(state);
         const std::size_t n = basis().size(), lanes = round_up_to_lanes(n);
         const std::size_t at_once = std::min(samples.size, k_block_size);
         const Scratch memory(5 * lanes + 2 * n * k_block_size + 2 * lanes * at_once);
@@ -67,13 +68,17 @@ class SequentialEncoder : public LinearEncoder {
     }
 
     void solve(std::span<const float> state, std::span<Rgb> c) const override {
+        check_state(state);
         const std::size_t n = basis().size();
+        check_equal("coefficients", c.size(), n);
         const float* b = state.data() + k_header;
         for (std::size_t i = 0; i < n; ++i) c[i] = {b[i], b[n + i], b[2 * n + i]};
     }
 
     /// Averages the estimates by what each has seen: not what one pass over both would give.
     void merge(std::span<float> state, std::span<const float> other) const override {
+        check_state(state);
+        check_state(other);
         const std::size_t n = basis().size();
         const float total = state[k_weight] + other[k_weight];
         if (!(total > 0)) return;
@@ -112,7 +117,7 @@ class SequentialEncoder : public LinearEncoder {
     /// The step of a sample of weight `weight`; counts it in.
     virtual float step(float weight, Progress& progress) const = 0;
     virtual void update(const kernels::Sequential& s, ColourView radiance, const Steps& steps) const = 0;
-    /// How far the other estimate's lobe counts, and how the numbers per lobe combine.
+    /// Define the weight of the other estimate's lobe in a merge, and the merge of the numbers per lobe.
     [[nodiscard]] virtual float merge_share(std::span<const float> /*state*/, std::span<const float> /*other*/,
                                             std::size_t /*per_lobe*/, float share) const {
         return share;
@@ -156,6 +161,7 @@ class Progressive final : public SequentialEncoder {
         : SequentialEncoder(basis_of, sign), options_(options) {
         const Matrix gram = basis().gram();
         const std::size_t n = basis().size();
+        if (!options_.seed.empty()) check_equal("coefficients to start from", options_.seed.size(), n);
         for (std::size_t i = 0; i < n; ++i)
             mean_square_.push_back(static_cast<float>(gram[i * n + i] / solid_angle(basis().domain())));
     }

@@ -64,8 +64,8 @@ inline constexpr Chromaticity k_equal_energy{1.0 / 3, 1.0 / 3};
     return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
 }
 
-/// How light brighter than white is fitted into pictures for people: cut off, x / (1 + x), or a film's curve (Narkowicz
-/// 2016, fits ACES). The pages have the same three.
+/// Tone curves for values brighter than white: clamp, x / (1 + x), or filmic (Narkowicz 2016, fits ACES). The reports
+/// have the same three.
 enum class ToneCurve { clamp, reinhard, filmic };
 
 /// The tone of a linear value, in [0, 1]; negative values and NaN become 0.

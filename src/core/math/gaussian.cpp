@@ -2,7 +2,6 @@
 #include "core/math/gaussian.h"
 
 #include <algorithm>
-#include <cassert>
 
 #include "core/math/harmonics.h"
 #include "core/math/quadrature.h"
@@ -110,7 +109,7 @@ double mean_cosine(double sharpness) {
 }
 
 double sharpness_from_mean_cosine(double r) {
-    assert(r >= 0 && r < 1);
+    LOBELIA_ASSERT(r >= 0 && r < 1);
     // Banerjee's estimate, polished by Newton: L' = 1 - L^2 - 2 L / lambda.
     double s = r * (3 - r * r) / (1 - r * r);
     for (int i = 0; i < 8 && s > 1e-9; ++i) {
@@ -121,14 +120,11 @@ double sharpness_from_mean_cosine(double r) {
     return s;
 }
 
-double sharpness_from_falloff(double value, double cosine) {
-    assert(value > 0 && value < 1 && cosine < 1);
-    return std::log(value) / (cosine - 1);
-}
-
 std::vector<double> irradiance_series(double sharpness, double tolerance) {
     // Ratios r_l = i_l / i_{l-1} by backward recurrence, well past the last term that counts.
-    const auto last = static_cast<std::size_t>(20 + 9 * std::sqrt(sharpness));
+    // A NaN has the shortest series, and what no float tells from infinity that of the largest.
+    constexpr double most = 1e8;
+    const auto last = static_cast<std::size_t>(20 + 9 * std::sqrt(std::min(std::max(0.0, sharpness), most)));
     std::vector<double> ratio(last + 2, 0.0);
     for (std::size_t l = last; l >= 1; --l)
         ratio[l] = sharpness / (static_cast<double>(2 * l + 1) + sharpness * ratio[l + 1]);
@@ -161,7 +157,7 @@ double zonal_sum(const std::vector<double>& series, double c) {
 }
 
 double irradiance(double sharpness, double c) {
-    // In closed form at the pole, opposite and across; below sharpness 1 that would cancel.
+    // Use closed forms at the pole, opposite and across; below sharpness 1 they would cancel.
     const double s = sharpness, e = std::exp(-s);
     if (s >= 1 && c == 1) return 2 * k_pi * (s - 1 + e) / (s * s);
     if (s >= 1 && c == -1) return 2 * k_pi * e * (1 - e * (1 + s)) / (s * s);

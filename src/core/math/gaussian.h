@@ -35,8 +35,6 @@ struct ScaledLobe {
 /// Mean cosine L(lambda) = coth lambda - 1 / lambda of the normalised lobe (Langevin function), and its inverse.
 [[nodiscard]] double mean_cosine(double sharpness);
 [[nodiscard]] double sharpness_from_mean_cosine(double r);
-/// The sharpness at which the lobe has fallen to `value` < 1 at cosine `cosine` < 1 from its axis.
-[[nodiscard]] double sharpness_from_falloff(double value, double cosine);
 
 /// Zonal series of the irradiance of a unit lobe: E(c) = sum_l term_l P_l(c), c the cosine between normal and axis,
 /// term_l = I (2l + 1) / (4 pi) A_l i_l(lambda) / i_0(lambda), until the terms are below `tolerance` * I.

@@ -53,7 +53,7 @@ struct Ray {
 /// The highest degree of Lobe::zonal.
 inline constexpr std::size_t k_zonal_degree = 8;
 
-/// What the reflection does on the whole, for a Fresnel factor of 1 where not said otherwise.
+/// Integrals of the reflection, for a Fresnel factor of 1 unless stated otherwise.
 struct Lobe {
     float albedo = 1;                               ///< integral of reflection() over light
     float fresnel = 0;                              ///< the same with Schlick's power (1 - v.h)^5
@@ -61,9 +61,9 @@ struct Lobe {
     float spread = 0;                               ///< 1 - the length of the mean direction vector
     std::array<float, k_zonal_degree + 1> zonal{};  ///< mean of P_l(axis . light), l = 0 ..: 1, 1 - spread, ...
 };
-/// From a table in alpha and n.v, made when first asked for (0.1 s). Largest errors for alpha and n.v from 0.1 on:
-/// albedo 0.0015, fresnel 0.001, axis 0.006 of the root of the spread, spread 1 %, zonal 0.004. Below: 0.015, 0.02,
-/// 0.12, 50 %, 0.012. Tested.
+/// Returns the lobe from a table in alpha and n.v, computed at the first call (0.1 s). Largest errors for alpha and n.v
+/// from 0.1 on: albedo 0.0015, fresnel 0.001, axis 0.006 of the root of the spread, spread 1 %, zonal 0.004. Below:
+/// 0.015, 0.02, 0.12, 50 %, 0.012. Tested.
 [[nodiscard]] Lobe lobe(const View& view);
 /// The same by `count` rays, without the table.
 [[nodiscard]] Lobe lobe_by_rays(const View& view, std::size_t count);

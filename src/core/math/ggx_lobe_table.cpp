@@ -1,4 +1,4 @@
-// What a whole GGX lobe does: albedo, mean direction and zonal part, by rays and from a table.
+// Integrals of a whole GGX lobe: albedo, mean direction and zonal part, by rays and from a table.
 #include "core/math/ggx.h"
 
 namespace lobelia::ggx {
@@ -6,7 +6,7 @@ namespace {
 
 /// Entries along either side, and the rays that each is made from.
 constexpr std::size_t k_lobe_side = 32, k_table_rays = 1024;
-/// From radians to the unit interval.
+/// Converts radians to the unit interval.
 constexpr auto k_elevation_scale = static_cast<float>(2 / k_pi);
 
 /// Table coordinates from 0 to 1: roots of alpha and of the viewer's elevation above the surface, for the lobe changes

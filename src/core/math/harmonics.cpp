@@ -124,7 +124,7 @@ void Sum(std::size_t degree, const float* table, const Rgb* c, DirectionView dir
         out);
 }
 
-/// At one direction, red, green and blue side by side in a vector.
+/// Evaluates one direction, with red, green and blue in the lanes of a vector.
 template <class Degree, class Wanted>
 HWY_INLINE Rgb sum_at(Degree degree, const Wanted& wanted, const float* table, const Rgb* c, const float* factors,
                       const Vec3& w) {
@@ -207,7 +207,8 @@ void Harmonics::values(DirectionView block, float* rows) const {
 }
 
 void Harmonics::sum(std::span<const Rgb> c, DirectionView directions, MutableColourView out) const {
-    assert(c.size() == size() && directions.size == out.size);
+    check_equal("coefficients", c.size(), size());
+    check_equal("colours for the directions", out.size, directions.size);
     HWY_DYNAMIC_DISPATCH(Sum)(degree_, table_.data(), c.data(), directions, out);
 }
 
@@ -216,7 +217,8 @@ void Harmonics::values_at(Vec3 direction, float* values) const {
 }
 
 Rgb Harmonics::sum_at(std::span<const Rgb> c, std::span<const float> band_factors, Vec3 direction) const {
-    assert(c.size() == size() && band_factors.size() == degree_ + 1);
+    check_equal("coefficients", c.size(), size());
+    check_equal("factors of bands", band_factors.size(), degree_ + 1);
     return HWY_DYNAMIC_DISPATCH(SumAt)(degree_, table_.data(), c.data(), band_factors.data(), direction);
 }
 
@@ -301,7 +303,9 @@ void rotate_degree_2(const Rotation& r, std::span<const Rgb> c, std::span<Rgb> o
 
 std::vector<Rgb> rotated(const Rotation& r, std::span<const Rgb> c) {
     std::vector<Rgb> result(c.size());
-    for (std::size_t l = 0; l * l < c.size(); ++l) {
+    const auto bands = static_cast<std::size_t>(std::sqrt(static_cast<double>(c.size())));
+    check_equal("coefficients of whole bands", c.size(), bands * bands);
+    for (std::size_t l = 0; l < bands; ++l) {
         const std::size_t size = 2 * l + 1;
         const auto from = c.subspan(l * l, size);
         const auto to = std::span(result).subspan(l * l, size);

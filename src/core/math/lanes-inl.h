@@ -1,5 +1,5 @@
-// What every file of vectorised loops starts with: the vector type, loads and stores that end where the data ends, sums
-// of colours. For sources that Highway includes once for each target, after highway.h.
+// Shared by all files of vectorised loops: the vector type, loads and stores limited to the data, sums of colours. For
+// sources that Highway includes once for each target, after highway.h.
 #if defined(LOBELIA_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef LOBELIA_LANES_INL_H
 #undef LOBELIA_LANES_INL_H

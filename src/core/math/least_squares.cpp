@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/math/dense.h"
 
@@ -20,7 +21,7 @@ class FreeSet {
           barred_(static_cast<std::size_t>(target.size()), false),
           tolerance_(1e-12 * std::max(target.cwiseAbs().maxCoeff(), 1e-300)) {}
 
-    /// Frees the coefficient that wants most to grow; -1 when none does.
+    /// Frees the coefficient with the largest gradient; returns -1 if none is positive.
     Eigen::Index free_next() {
         const Eigen::VectorXd gradient = target_ - gram_ * b_;
         Eigen::Index best = -1;
@@ -32,7 +33,7 @@ class FreeSet {
         return best;
     }
 
-    /// Walks towards the solution among the free; whatever would turn negative on the way is fixed at 0 again.
+    /// Moves towards the solution of the free coefficients; fixes those that become negative at 0 again.
     void walk() {
         Eigen::VectorXd s = solve_free();
         while (!free_.empty() && s.minCoeff() <= 0) {
@@ -51,7 +52,8 @@ class FreeSet {
         for (std::size_t k = 0; k < free_.size(); ++k) b_(free_[k]) = s(static_cast<Eigen::Index>(k));
     }
 
-    /// What rounding fixes at 0 again at once would be freed for ever; it is barred until something else has moved.
+    /// Bars a coefficient that rounding fixes at 0 again at once, until another one has moved; it would be freed for
+    /// ever.
     void bar_if_fixed(Eigen::Index last_freed) {
         const bool stayed = is_free(last_freed);
         if (stayed) std::fill(barred_.begin(), barred_.end(), false);
@@ -82,6 +84,9 @@ std::vector<double> non_negative_least_squares(const Matrix& gram, std::span<con
     const auto n = static_cast<Eigen::Index>(m.size());
     const Eigen::MatrixXd g = as_matrix(gram, m.size());
     const Eigen::VectorXd target = Eigen::Map<const Eigen::VectorXd>(m.data(), n);
+    // The search compares numbers, which NaN would keep going for ever: what is not finite gives NaN.
+    if (!g.allFinite() || !target.allFinite())
+        return std::vector<double>(m.size(), std::numeric_limits<double>::quiet_NaN());
     FreeSet set(g, target);
     for (Eigen::Index step = 0; step < 10 * n; ++step) {
         const Eigen::Index freed = set.free_next();

@@ -20,7 +20,7 @@ double largest(std::span<const double> a) {
     return result;
 }
 
-/// What is remembered of the last steps: rings of vectors, allocated once.
+/// The last steps and gradients: rings of vectors, allocated once.
 class History {
   public:
     History(std::size_t depth, std::size_t size)
@@ -67,8 +67,8 @@ class History {
     double scale_ = 1;
 };
 
-/// Downhill by what the last steps tell of the curvature, or along the gradient where that leads uphill. Returns the
-/// slope along it.
+/// Computes a descent direction from the curvature of the last steps, or along the gradient if that leads uphill.
+/// Returns the slope along it.
 double find_direction(History& history, std::span<const double> gradient, std::span<double> direction) {
     const auto along_gradient = [&] {
         for (std::size_t i = 0; i < direction.size(); ++i) direction[i] = -gradient[i];

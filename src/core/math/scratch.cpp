@@ -2,8 +2,9 @@
 #include "core/math/scratch.h"
 
 #include <array>
-#include <cassert>
 #include <memory>
+
+#include "lobelia/contract.h"
 
 namespace lobelia {
 namespace {
@@ -26,7 +27,7 @@ thread_local Stack stack;
 }  // namespace
 
 Scratch::Scratch(std::size_t size) {
-    assert(stack.depth < stack.buffers.size());
+    check_range("depth of nested working memory", stack.depth, 0, stack.buffers.size() - 1);
     Buffer& buffer = stack.buffers[stack.depth++];
     if (buffer.size < size) buffer = {std::make_unique_for_overwrite<float[]>(size), size};
     data_ = buffer.floats.get();

@@ -31,7 +31,7 @@ namespace lobelia {
 HWY_EXPORT(ZonalQuadraticRow);
 
 void evaluate(const std::array<ZonalQuadratic, 3>& functions, DirectionView directions, MutableColourView out) {
-    assert(directions.size == out.size);
+    check_equal("colours for the directions", out.size, directions.size);
     for (std::size_t k = 0; k < 3; ++k)
         HWY_DYNAMIC_DISPATCH(ZonalQuadraticRow)(functions[k], directions, out.channel(k));
 }

@@ -63,8 +63,13 @@ std::uint64_t hilbert_index(std::uint32_t side, std::uint32_t x, std::uint32_t y
     return index;
 }
 
+void check_pixels(const Image& image, SourcePlace place = SourcePlace::here()) {
+    check_equal("pixels of an image", image.pixels.size(), image.width * image.height, place);
+}
+
 /// The named texels as samples, in the order given.
 Samples samples_of(const Image& environment, Domain domain, const std::vector<std::uint32_t>& texels) {
+    check_pixels(environment);
     const LatLong grid = lat_long(environment);
     const Directions directions = grid.directions(domain);
     const std::vector<float> solid_angles = grid.solid_angles();
@@ -92,11 +97,13 @@ LatLong::Position LatLong::position(Vec3 d) {
 }
 
 Vec3 LatLong::direction(std::size_t index) const {
+    check_grid(*this);
     return direction((static_cast<double>(index % width) + 0.5) / static_cast<double>(width),
                      (static_cast<double>(index / width) + 0.5) / static_cast<double>(height));
 }
 
 std::size_t LatLong::index(Vec3 d) const {
+    check_grid(*this);
     const Position p = position(d);
     const auto cell = [](double t, std::size_t n) {
         return std::min(static_cast<std::size_t>(std::max(0.0, t * static_cast<double>(n))), n - 1);
@@ -105,6 +112,7 @@ std::size_t LatLong::index(Vec3 d) const {
 }
 
 double LatLong::solid_angle(std::size_t y) const {
+    check_grid(*this);
     const double step = k_pi / static_cast<double>(height);
     const double band = std::cos(static_cast<double>(y) * step) - std::cos(static_cast<double>(y + 1) * step);
     return 2 * k_pi / static_cast<double>(width) * band;
@@ -142,7 +150,9 @@ Vec3 world_from_domain(Domain domain, Vec3 d) { return domain == Domain::sphere 
 
 Image resize(const Image& environment, LatLong target) {
     if (lat_long(environment) == target) return environment;
-    assert(environment.width > 0 && environment.height > 0 && target.width > 0 && target.height > 0);
+    check_grid(lat_long(environment));
+    check_grid(target);
+    check_pixels(environment);
     const auto columns = overlaps(longitude_edges(target.width), longitude_edges(environment.width));
     const auto rows = overlaps(latitude_edges(target.height), latitude_edges(environment.height));
 
@@ -171,6 +181,7 @@ Image resize(const Image& environment, LatLong target) {
 }
 
 LatLong reduced_grid(LatLong grid, std::size_t most_texels) {
+    check_range("most texels", most_texels, 1, SIZE_MAX);
     if (grid.size() <= most_texels) return grid;
     const double factor = std::sqrt(static_cast<double>(grid.size()) / static_cast<double>(most_texels));
     // Prefer a whole-number reduction: then every target texel averages whole source texels.
@@ -215,6 +226,7 @@ Samples shuffled_texel_samples(const Image& environment, Domain domain, std::uin
 }
 
 Samples directed_samples(const Image& environment, DirectionView directions, Domain domain) {
+    check_pixels(environment);
     const LatLong grid = lat_long(environment);
     const auto share = static_cast<float>(lobelia::solid_angle(domain) / static_cast<double>(directions.size));
     Samples samples(directions.size);
@@ -237,12 +249,13 @@ Rgb mean_radiance(const Image& environment) {
 }
 
 void irradiance_sum(SampleView samples, DirectionView normals, MutableColourView out) {
-    assert(normals.size == out.size);
+    check_equal("colours for the normals", out.size, normals.size);
     kernels::irradiance_sum(samples, normals, out);
 }
 
 void irradiance_sums(SampleView samples, DirectionView normals, MutableColourView out, MutableColourView opposite) {
-    assert(normals.size == out.size && normals.size == opposite.size);
+    check_equal("colours for the normals", out.size, normals.size);
+    check_equal("colours for the opposite normals", opposite.size, normals.size);
     kernels::irradiance_sums(samples, normals, out, opposite);
 }
 

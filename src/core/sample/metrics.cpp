@@ -4,6 +4,7 @@
 namespace lobelia {
 
 double negative_share(ColourView a, std::span<const float> weights) {
+    check_equal("weights", weights.size(), a.size);
     double negative = 0, total = 0;
     for (std::size_t i = 0; i < a.size; ++i) {
         total += weights[i];
@@ -13,7 +14,8 @@ double negative_share(ColourView a, std::span<const float> weights) {
 }
 
 Errors errors(ColourView a, ColourView reference, std::span<const float> weights) {
-    assert(a.size == reference.size && a.size == weights.size());
+    check_equal("colours for the reference", a.size, reference.size);
+    check_equal("weights", weights.size(), a.size);
     Errors e;
     double total = 0, worst = -1;
     for (std::size_t i = 0; i < a.size; ++i) {

@@ -147,7 +147,8 @@ std::vector<std::uint32_t> spread_order(std::size_t count, std::uint32_t seed) {
 }
 
 Samples reordered(SampleView samples, std::span<const std::uint32_t> order) {
-    assert(samples.size == order.size());
+    check_equal("places of the order", order.size(), samples.size);
+    for (const std::uint32_t i : order) check_range("index of a sample", i, 0, samples.size - 1);
     Planes<7> result(samples.size);
     for (std::size_t k = 0; k < 7; ++k) {
         const float* from = samples.channel(k);
@@ -165,6 +166,7 @@ Samples first(SampleView samples, std::size_t count) {
 }
 
 AliasTable::AliasTable(std::span<const float> weights) : probability_(weights.size()), columns_(weights.size()) {
+    check_range("weights", weights.size(), 1, UINT32_MAX);
     // Normalise, then scale so that the mean is 1.
     float sum = 0;
     for (float w : weights) sum += w;
@@ -193,12 +195,15 @@ AliasTable::AliasTable(std::span<const float> weights) : probability_(weights.si
 }
 
 std::size_t AliasTable::sample(Point2 p) const {
-    return choose(std::min(static_cast<std::size_t>(p.a * static_cast<double>(size())), size() - 1), p.b);
+    // A NaN becomes 0.
+    const double last = static_cast<double>(size() - 1);
+    return choose(static_cast<std::size_t>(std::min(std::max(0.0, p.a * static_cast<double>(size())), last)), p.b);
 }
 
 AliasTable::Choice AliasTable::sample(double u) const {
-    const double scaled = u * static_cast<double>(size());
-    const std::size_t i = std::min(static_cast<std::size_t>(scaled), size() - 1);
+    // A NaN becomes 0.
+    const double scaled = std::max(0.0, u * static_cast<double>(size()));
+    const auto i = static_cast<std::size_t>(std::min(scaled, static_cast<double>(size() - 1)));
     const double within = scaled - static_cast<double>(i), threshold = columns_[i].threshold;
     const auto below_one = [](double v) { return std::clamp(v, 0.0, 1 - 0x1p-53); };
     if (within < threshold) return {i, below_one(within / threshold)};

@@ -22,7 +22,7 @@ struct Pair {
 /// block of 2^k samples is a (0, k, 2)-net; different pairs, keys and seeds are independent scramblings.
 [[nodiscard]] Pair pair(std::uint32_t key, std::uint32_t sample, std::uint32_t dimension_pair, std::uint32_t seed);
 
-/// The same with `mixed_key` = mix(key, seed), for whoever asks often.
+/// The same with `mixed_key` = mix(key, seed), for repeated calls.
 [[nodiscard]] Pair pair_of(std::uint32_t mixed_key, std::uint32_t sample, std::uint32_t dimension_pair);
 
 /// Many points: a[i], b[i].

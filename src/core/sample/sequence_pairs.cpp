@@ -1,8 +1,6 @@
 // Many Sobol pairs at once, in vector lanes: the same bits as pair_of.
 #include "core/sample/sequence.h"
 
-#include <cassert>
-
 #include "lobelia/planes.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -81,8 +79,8 @@ HWY_EXPORT(FillPairs);
 
 void pairs_of(std::span<const std::uint32_t> mixed_keys, std::span<const std::uint32_t> samples,
               std::uint32_t dimension_pair, Pairs& out) {
-    assert(mixed_keys.size() == samples.size() && mixed_keys.size() % k_lanes == 0);
-    assert(mixed_keys.size() <= out.a.size());
+    LOBELIA_ASSERT(mixed_keys.size() == samples.size() && mixed_keys.size() % k_lanes == 0);
+    LOBELIA_ASSERT(mixed_keys.size() <= out.a.size());
     HWY_DYNAMIC_DISPATCH(FillPairs)
     (mixed_keys.data(), samples.data(), samples.size(), dimension_pair, out.a.data(), out.b.data());
 }

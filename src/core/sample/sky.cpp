@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <map>
 #include <string>
 
@@ -59,8 +58,8 @@ constexpr std::array<double, 33> k_ozone{0.003, 0.006, 0.009, 0.014, 0.021, 0.03
                                          0.103, 0.120, 0.120, 0.115, 0.125, 0.120, 0.105, 0.090, 0.079, 0.067, 0.057,
                                          0.048, 0.036, 0.028, 0.023, 0.018, 0.014, 0.011, 0.010, 0.009, 0.007, 0.004};
 
-/// How much sunlight of `nanometres` arrives through relative air mass `m` (appendix A.1). Water vapour and mixed gases
-/// are left out: they absorb beyond 690 nm, where 0.2 % of the sun's luminance lies.
+/// Returns the transmittance of sunlight of `nanometres` through relative air mass `m` (appendix A.1). Water vapour and
+/// mixed gases are ignored: they absorb beyond 690 nm, where 0.2 % of the sun's luminance lies.
 double transmittance(int nanometres, double turbidity, double m) {
     const double um = nanometres * 1e-3;
     const double rayleigh = 0.008735 * std::pow(um, -4.08);
@@ -99,7 +98,7 @@ Status check(const SkyOptions& o) {
 }
 
 SunDisc sun_disc(const SkyOptions& options) {
-    assert(check(options));
+    if (const Status valid = check(options); !valid) contract_violated(valid.error().message);
     // Find the relative air mass between the sun and the ground (Kasten 1966).
     const double theta = 90 - options.sun_elevation;
     const double m = 1 / (std::cos(radians(theta)) + 0.15 * std::pow(93.885 - theta, -1.253));
@@ -130,7 +129,7 @@ Sky::Perez Sky::perez(std::array<double, 5> k, double zenith, double sun_theta) 
 }
 
 Sky::Sky(const SkyOptions& options) : sun_(sun_direction(options)) {
-    assert(check(options));
+    if (const Status valid = check(options); !valid) contract_violated(valid.error().message);
     // Set up the three distributions (appendix A.2).
     const double t = options.turbidity, theta = radians(90 - options.sun_elevation);
     luminance_ = perez(
@@ -202,6 +201,7 @@ void add_sun(Image& image, const SunDisc& sun) {
 }  // namespace
 
 Image sky(LatLong grid, const SkyOptions& options) {
+    check_grid(grid);
     const Sky radiance(options);
     Image image(grid.width, grid.height);
     for (std::size_t i = 0; i < grid.size(); ++i) image.pixels[i] = radiance(grid.direction(i));

@@ -7,7 +7,7 @@
 namespace lobelia {
 namespace {
 
-/// As few digits as read back to the same float.
+/// Writes as few digits as read back to the same float.
 std::string number(float value) {
     char text[32];
     const auto [end, error] = std::to_chars(text, text + sizeof text, value);

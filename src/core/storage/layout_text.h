@@ -13,7 +13,7 @@ namespace lobelia {
 /// One of the "textures".
 [[nodiscard]] std::string texture_json(const TextureLayout::Texture& texture);
 
-/// What a channel holds, such as "c1.r" or "0.5 + 0.288675 c1.r / c0.r".
+/// Returns the formula of a channel, such as "c1.r" or "0.5 + 0.288675 c1.r / c0.r".
 [[nodiscard]] std::string channel_text(const StoredChannel& channel);
 
 [[nodiscard]] std::string_view component_name(Component component);

@@ -25,6 +25,10 @@ Error unsuitable(const Storage& storage, const CoefficientTraits& traits) {
                  std::string(needs[static_cast<std::size_t>(storage.suits)]) + "; usable with this codec: " + suitable};
 }
 
+void check_traits(const Storage& storage, const CoefficientTraits& traits, SourcePlace place = SourcePlace::here()) {
+    if (!suits(storage, traits)) contract_violated(unsuitable(storage, traits).message, place);
+}
+
 /// Largest magnitude of a texel's three channels of a coefficient.
 float largest_channel(const CoefficientPlanes& c, std::size_t coefficient, std::size_t texel) {
     float largest = 0;
@@ -49,7 +53,7 @@ float spread_at(const CoefficientPlanes& c, std::size_t coefficient, std::size_t
     return spread;
 }
 
-/// Whether the storage can hold a texel's value, or has to cut it.
+/// Returns whether the storage can hold a texel's value without clamping.
 bool is_within(const Storage& storage, const CoefficientTraits& traits, const CoefficientPlanes& c, std::size_t plane,
                std::size_t texel) {
     const float value = c.planes[plane][texel];
@@ -126,11 +130,15 @@ Result<std::vector<const Storage*>> find_storages(std::span<const std::string> n
 
 void allowed_error(const Storage& storage, const CoefficientTraits& traits, const CoefficientPlanes& coefficients,
                    const MutableCoefficientPlanes& out) {
+    check_traits(storage, traits);
+    check_equal("planes of coefficients", coefficients.planes.size(), 3 * traits.count);
+    check_equal("planes of bounds", out.planes.size(), coefficients.planes.size());
+    check_equal("texels of the bounds", out.size(), coefficients.size());
     const TextureLayout layout = storage.layout(traits);
     float largest = 0;
     for (const float* plane : coefficients.planes)
         largest = std::max(largest, largest_magnitude(plane, coefficients.size()));
-    // What is too large for a format is divided first, and with it what the format can tell from 0.
+    // Scale the absolute error like the values, which are divided if they are too large for the format.
     ErrorBound bound = storage.bound;
     bound.absolute *= storing_scale(layout.textures.front().format, largest);
     for (std::size_t p = 0; p < coefficients.planes.size(); ++p) {
@@ -146,6 +154,8 @@ void allowed_error(const Storage& storage, const CoefficientTraits& traits, cons
 }
 
 std::vector<Rgb> stored_and_read(const Storage& storage, const CoefficientTraits& traits, std::span<const Rgb> c) {
+    check_traits(storage, traits);
+    check_equal("coefficients", c.size(), traits.count);
     std::vector<float> in(3 * c.size()), back(in.size());
     CoefficientPlanes planes(1, 1, {});
     MutableCoefficientPlanes read(1, 1, {});

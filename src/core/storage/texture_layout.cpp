@@ -23,7 +23,7 @@ std::size_t rgb_index(Component component) { return static_cast<std::size_t>(com
 
 std::size_t divided(std::size_t size, std::size_t subsampling) { return (size + subsampling - 1) / subsampling; }
 
-/// Whether a channel is a plane as it is.
+/// Returns whether a channel stores a plane unchanged.
 bool is_plane(const StoredChannel& channel, const Texture& texture, float scale) {
     return is_rgb(channel.component) && channel.form == Form::value && channel.scale == 1 && channel.offset == 0 &&
            texture.subsampling == 1 && scale == 1;
@@ -123,7 +123,7 @@ void unpack_channel(const StoredChannel& channel, const Texture& texture, const 
     const float inverse = 1 / channel.scale;
     std::vector<float> row(packed.width * texture.subsampling);
     for (std::size_t y = 0; y < out.height; ++y) {
-        // What the channel gives back along a row of texels.
+        // Decode the channel along a row of texels.
         const float* from = decoded + y / texture.subsampling * packed.width;
         for (std::size_t x = 0; x < packed.width; ++x) row[x] = (from[x] * packed.scale - channel.offset) * inverse;
         if (texture.subsampling == 2) repeat_each(row, packed.width);
@@ -145,8 +145,10 @@ void unpack_channel(const StoredChannel& channel, const Texture& texture, const 
 
 void unpack_texture(const Texture& texture, const PackedTexture& packed, const MutableCoefficientPlanes& out) {
     const FormatInfo& format = info(texture.format);
-    assert(packed.format == texture.format && packed.width == divided(out.width, texture.subsampling) &&
-           packed.height == divided(out.height, texture.subsampling));
+    check_equal("format of the texture", static_cast<std::size_t>(packed.format),
+                static_cast<std::size_t>(texture.format));
+    check_equal("width of the texture", packed.width, divided(out.width, texture.subsampling));
+    check_equal("height of the texture", packed.height, divided(out.height, texture.subsampling));
     std::vector<std::vector<float>> decoded(format.channels);
     std::vector<float*> channels(format.channels);
     const auto goes_straight = [&](std::size_t k) {
@@ -163,6 +165,13 @@ void unpack_texture(const Texture& texture, const PackedTexture& packed, const M
     decode_texels(texture.format, packed.width, packed.height, packed.data, channels);
     for (std::size_t k = 0; k < texture.channels.size(); ++k)
         if (!goes_straight(k)) unpack_channel(texture.channels[k], texture, packed, decoded[k].data(), out);
+}
+
+/// Planes for all coefficients of the layout, of at least one texel.
+void check_planes(const TextureLayout& layout, const CoefficientPlanes& planes,
+                  SourcePlace place = SourcePlace::here()) {
+    check_equal("planes of coefficients", planes.planes.size(), 3 * layout.coefficients, place);
+    check_range("texels", planes.size(), 1, SIZE_MAX, place);
 }
 
 bool has_ratios(const Texture& texture) {
@@ -271,7 +280,7 @@ double bytes_per_texel(const TextureLayout& layout) {
 }
 
 std::vector<PackedTexture> pack(const TextureLayout& layout, const CoefficientPlanes& coefficients) {
-    assert(coefficients.planes.size() == 3 * layout.coefficients && coefficients.size() > 0);
+    check_planes(layout, coefficients);
     std::vector<PackedTexture> packed;
     packed.reserve(layout.textures.size());
     PackedLead lead;
@@ -284,7 +293,7 @@ std::vector<PackedTexture> pack(const TextureLayout& layout, const CoefficientPl
 
 Status pack_each(const TextureLayout& layout, const CoefficientPlanes& coefficients, const TakeTexture& take,
                  const std::atomic<bool>* stop) {
-    assert(coefficients.planes.size() == 3 * layout.coefficients && coefficients.size() > 0);
+    check_planes(layout, coefficients);
     const bool keeps_lead = std::any_of(layout.textures.begin(), layout.textures.end(), has_ratios);
     return unless_stopped([&]() -> Status {
         std::deque<PackedTexture> kept;
@@ -299,7 +308,8 @@ Status pack_each(const TextureLayout& layout, const CoefficientPlanes& coefficie
 }
 
 void unpack(const TextureLayout& layout, std::span<const PackedTexture> textures, const MutableCoefficientPlanes& out) {
-    assert(textures.size() == layout.textures.size() && out.planes.size() == 3 * layout.coefficients);
+    check_planes(layout, out);
+    check_equal("textures", textures.size(), layout.textures.size());
     for (std::size_t i = 0; i < textures.size(); ++i) unpack_texture(layout.textures[i], textures[i], out);
 }
 

@@ -88,7 +88,7 @@ std::array<float, 4> TextureSampler::filtered(const Texture& texture, Vec2 uv) {
 }
 
 void TextureSampler::sample(Vec2 uv, std::span<Rgb> c) const {
-    assert(c.size() == layout_.coefficients);
+    check_equal("coefficients", c.size(), layout_.coefficients);
     for (std::size_t i = 0; i < textures_.size(); ++i) {
         const auto stored = filtered(textures_[i], uv);
         const auto& channels = layout_.textures[i].channels;

@@ -77,7 +77,7 @@ std::vector<double> angle_grid() {
 
 Study::Plot cosine_plot() {
     Study::Plot plot{"The clamped cosine and its approximations",
-                     "What each irradiance formula stands on: the cosine as one lobe, or as a few harmonics.",
+                     "Basis of each irradiance formula: the cosine as one lobe, or as a few harmonics.",
                      "angle [degrees]",
                      "value",
                      Study::Axis::linear,

@@ -129,9 +129,9 @@ Study::Table case_table(const std::vector<StudyCase>& cases, std::size_t k) {
 
 Study::Table furnace_table() {
     Study::Table table{
-        "White furnace: what is reflected of a constant radiance of 1, without Fresnel",
+        "White furnace: reflected part of a constant radiance of 1, without Fresnel",
         "In brackets the part that Schlick's power takes, so that F0 reflects F0 (A - B) + B. 4096 rays; "
-        "what is missing to 1 left the surface after more than one reflection.",
+        "the rest, up to 1, would leave the surface after more than one reflection.",
         {"alpha"},
         {}};
     const std::array cosines = {1.f, .95f, .6f, .25f, .1f};

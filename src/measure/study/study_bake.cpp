@@ -295,7 +295,7 @@ Result<BakedCodecs> measure_baked_codecs(const Scene& scene, const BakeOptions& 
     BakeStudy study(**setup, options);
     if (auto status = study.find_methods(); !status) return status.error();
     study.run(stop, progress);
-    if (stop) return Error{"stopped"};
+    if (stop) return Error{"stopped", Error::Kind::stopped};
     BakedCodecs measured = study.result();
     if (measured.texels == 0) return Error{"no texel of the scene is valid and lit"};
     return measured;

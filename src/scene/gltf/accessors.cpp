@@ -9,12 +9,9 @@
 namespace lobelia::gltf {
 namespace {
 
-/// Accessors without data are zeros of any number; more than this is useless, and costs memory on trust.
+/// Limit of accessors without data, whose elements are zeros: more is useless, and costs memory without any bytes in
+/// the file.
 constexpr std::size_t k_most_zeros = std::size_t{1} << 20;
-
-// accessor.componentType
-constexpr std::size_t k_byte = 5120, k_unsigned_byte = 5121, k_short = 5122, k_unsigned_short = 5123,
-                      k_unsigned_int = 5125, k_float = 5126;
 
 std::size_t size_of(std::size_t component_type) {
     switch (component_type) {
@@ -32,7 +29,7 @@ std::size_t size_of(std::size_t component_type) {
     }
 }
 
-/// 0 for types that nothing here reads.
+/// Returns the number of components; 0 for unsupported types.
 std::size_t components_of(std::string_view type) {
     if (type == "SCALAR") return 1;
     if (type == "VEC2") return 2;
@@ -53,7 +50,7 @@ std::uint32_t load_unsigned(const std::byte* data, std::size_t size) {
     return size == 2 ? load<std::uint16_t>(data) : load<std::uint32_t>(data);
 }
 
-/// An integer as it is, or normalised: the largest becomes 1.
+/// Converts an integer, or normalises it: the largest becomes 1.
 template <class T>
 float from_integer(const std::byte* data, bool normalized) {
     const auto value = static_cast<double>(load<T>(data));
@@ -61,7 +58,7 @@ float from_integer(const std::byte* data, bool normalized) {
     return static_cast<float>(std::max(value / static_cast<double>(std::numeric_limits<T>::max()), -1.0));
 }
 
-/// Where `count` elements lie in a view from `offset` on; nothing where they do not fit.
+/// Layout of `count` elements in a view from `offset` on; nothing if they do not fit.
 struct Layout {
     std::size_t offset = 0, count = 0, stride = 0, element = 0;
 };
@@ -94,8 +91,8 @@ Accessor::Accessor(Document& document, const JsonPlace& index, std::size_t most_
     components_ = components_of(accessor.at("type").long_text());
     if (const auto normalized = accessor.find("normalized")) normalized_ = normalized->flag();
     count_ = whole(accessor.at("count"));
-    if (component_size_ == 0) refuse(fmt::format("componentType {} is not read", component_type_));
-    if (components_ == 0 || components_ > most_components) refuse("matrices are not read here");
+    if (component_size_ == 0) refuse(fmt::format("componentType {} is not supported", component_type_));
+    if (components_ == 0 || components_ > most_components) refuse("matrices are not supported here");
     const std::size_t element = component_size_ * components_;
 
     // Find its data, if it has any.

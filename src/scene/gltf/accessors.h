@@ -7,7 +7,12 @@
 
 namespace lobelia::gltf {
 
-/// Valid as long as the document is, and never outside of its buffers. Copies only the indices of a sparse accessor.
+/// Values of accessor.componentType.
+inline constexpr std::size_t k_byte = 5120, k_unsigned_byte = 5121, k_short = 5122, k_unsigned_short = 5123,
+                             k_unsigned_int = 5125, k_float = 5126;
+
+/// A view of an accessor's elements. Valid as long as the document is, and always within its buffers. Copies only the
+/// indices of a sparse accessor.
 class Accessor {
   public:
     /// Opens the accessor whose index is `index` and checks all that the file states about it. Elements have at most
@@ -16,11 +21,11 @@ class Accessor {
 
     [[nodiscard]] std::size_t count() const { return count_; }
     [[nodiscard]] std::size_t components() const { return components_; }
-    /// Element i as floats, normalised where the file says so; missing components are 0.
+    /// Returns element i as floats, normalised where the file says so; missing components are 0.
     [[nodiscard]] std::array<float, 4> operator[](std::size_t i) const;
-    /// The first components of element i.
+    /// Reads the first components of element i.
     void get(std::size_t i, std::span<float> values) const;
-    /// Component k of element i, of an accessor of unsigned integers.
+    /// Returns component k of element i, of an accessor of unsigned integers.
     [[nodiscard]] std::uint32_t index_at(std::size_t i, std::size_t k = 0) const;
     [[nodiscard]] bool is_unsigned() const;
 
@@ -29,7 +34,7 @@ class Accessor {
     [[nodiscard]] float component(const std::byte* data) const;
     void open_sparse(Document& document, const JsonPlace& sparse, std::size_t accessor);
 
-    Bytes data_;  ///< empty: zeros
+    Bytes data_;  ///< empty: all zeros
     std::size_t count_ = 0, stride_ = 0, components_ = 0, component_size_ = 0;
     std::size_t component_type_ = 0;
     bool normalized_ = false;

@@ -1,4 +1,4 @@
-// A glTF file taken apart: container, JSON, buffers.
+// Splits a glTF file into container, JSON and buffers.
 #include "scene/gltf/document.h"
 
 #include <algorithm>
@@ -19,15 +19,15 @@ std::uint32_t word_at(Bytes bytes, std::size_t offset) {
     return word;
 }
 
-/// GLB: a header of 12 bytes, then chunks of a length, a type and that many bytes.
+/// Splits a GLB file: a header of 12 bytes, then chunks of a length, a type and that many bytes.
 Container split_glb(Bytes bytes, std::string_view name) {
     constexpr std::uint32_t k_json = 0x4E4F534A, k_binary = 0x004E4942;
     const auto refuse = [&](std::string_view what) { throw JsonRefusal(fmt::format("{}: {}", name, what)); };
     if (bytes.size() < 12) refuse("a GLB file that ends within its header");
     if (const std::uint32_t version = word_at(bytes, 4); version != 2)
-        refuse(fmt::format("GLB version {} is not read, 2 is", version));
+        refuse(fmt::format("GLB version {} is not supported; use version 2", version));
     const std::uint32_t length = word_at(bytes, 8);
-    if (length > bytes.size()) refuse(fmt::format("the file is cut short: {} bytes of {}", bytes.size(), length));
+    if (length > bytes.size()) refuse(fmt::format("the file is truncated: {} bytes of {}", bytes.size(), length));
     if (length < 12) refuse("a GLB file of fewer bytes than its header");
     bytes = bytes.first(length);
 
@@ -38,7 +38,7 @@ Container split_glb(Bytes bytes, std::string_view name) {
         const std::uint32_t size = word_at(bytes, offset), type = word_at(bytes, offset + 4);
         offset += 8;
         if (size > bytes.size() - offset)
-            refuse(fmt::format("chunk {} is cut short: {} bytes of {}", chunk, bytes.size() - offset, size));
+            refuse(fmt::format("chunk {} is truncated: {} bytes of {}", chunk, bytes.size() - offset, size));
         const Bytes content = bytes.subspan(offset, size);
         if (chunk == 0 && type != k_json) refuse("the first chunk of the GLB file is not JSON");
         if (chunk == 0) parts.json = {reinterpret_cast<const char*>(content.data()), content.size()};
@@ -64,7 +64,7 @@ Container split(Bytes bytes, std::string_view name) {
 
 namespace {
 
-/// "2.0" as (2, 0).
+/// Parses "2.0" as (2, 0).
 std::optional<std::array<int, 2>> parse_version(std::string_view text) {
     std::array<int, 2> version{};
     const char *at = text.data(), *end = at + text.size();
@@ -75,7 +75,7 @@ std::optional<std::array<int, 2>> parse_version(std::string_view text) {
     return version;
 }
 
-/// The reader knows version 2.0: any other 2.x may be read unless the file asks for more.
+/// Refuses other versions than 2.x, and files whose minVersion is above 2.0.
 void check_version(const Document& document, const JsonPlace& root) {
     const auto asset = root.find("asset");
     if (!asset || !asset->has("version")) document.refuse("asset.version", "missing; not a glTF 2.0 file");
@@ -85,11 +85,11 @@ void check_version(const Document& document, const JsonPlace& root) {
         const auto version = parse_version(place->long_text());
         const bool is_minimum = std::string_view(key) == "minVersion";
         if (!version || (*version)[0] != 2 || (is_minimum && (*version)[1] > 0))
-            place->refuse(fmt::format("glTF \"{:.20}\" is not read, 2.0 is", place->long_text()));
+            place->refuse(fmt::format("glTF \"{:.20}\" is not supported; use 2.0", place->long_text()));
     }
 }
 
-/// JSON.stringify writes NaN as null: a member of that value is damaged, not missing.
+/// Refuses null members: JSON.stringify writes NaN as null, so such a value is damaged, not missing.
 void refuse_nulls(const JsonPlace& value) {
     if (value.is_null()) value.refuse("null");
     if (value.is_list())
@@ -140,7 +140,7 @@ void read_buffers(Document& document, const JsonPlace& root, const std::optional
         } else if (is_binary) {
             bytes = *binary;
         } else {
-            // Buffers that only an extension fills exist to be fallen back from.
+            // Buffers that only an extension fills are placeholders for files with a fallback.
             if (!buffer.has("extensions")) buffer.refuse("no uri, and no binary chunk for it");
             document.buffers.emplace_back();
             continue;
@@ -172,7 +172,7 @@ void Document::warn(std::string_view place, std::string_view what) {
 }
 
 void Document::warn(const JsonPlace& place, std::string_view what) {
-    // Looking for the path takes time: only for warnings that are kept.
+    // Look up the path only for warnings that are kept, because that takes time.
     warn(more_warnings == 0 ? place.path() : std::string(), what);
 }
 
@@ -226,7 +226,7 @@ Document open_document(Bytes bytes, const std::string& name, const ResourceReade
     read_buffers(document, root, container.binary);
     check_images(document);
     if (!objects(root, "animations").empty())
-        document.warn("animations", "not read; everything stands where its node says");
+        document.warn("animations", "not supported; nodes keep their static transforms");
     return document;
 }
 
@@ -251,7 +251,7 @@ Bytes view_bytes(const Document& document, const JsonPlace& index) {
 }
 
 std::string compressed(std::string_view extension) {
-    return fmt::format("{} is not read; decompress the file first: gltf-transform copy IN.glb OUT.glb", extension);
+    return fmt::format("{} is not supported; decompress the file first: gltf-transform copy IN.glb OUT.glb", extension);
 }
 
 std::string name_of(const JsonPlace& object) {

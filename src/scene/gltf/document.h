@@ -1,6 +1,6 @@
-// A glTF file taken apart: its JSON, checked on access, and its buffers as bytes.
+// A parsed glTF file: its JSON, checked on access, and its buffers as bytes.
 //
-// Within src/scene/gltf every fault of a file is thrown as JsonRefusal; read_gltf turns it into an Error.
+// Code in src/scene/gltf throws every fault of a file as JsonRefusal; read_gltf turns it into an Error.
 #pragma once
 
 #include <fmt/format.h>
@@ -31,7 +31,7 @@ struct Document {
     std::vector<Bytes> buffers;
 
     std::vector<std::string> warnings;
-    std::size_t more_warnings = 0;  ///< beyond the first few
+    std::size_t more_warnings = 0;  ///< number of warnings not kept
     /// Indices of sparse accessors, checked and read once each.
     std::map<std::size_t, std::shared_ptr<const std::vector<std::uint32_t>>> sparse_indices;
 
@@ -64,7 +64,7 @@ struct Document {
     void warn(const JsonPlace& place, std::string_view what);
 };
 
-/// The two parts of a file; text files have no binary one.
+/// The two parts of a file; text files have no binary part.
 struct Container {
     std::string_view json;
     std::optional<Bytes> binary;
@@ -78,38 +78,39 @@ struct Container {
 [[nodiscard]] Document open_document(Bytes bytes, const std::string& name, const ResourceReader& resources,
                                      const GltfReadOptions& options);
 
-/// The bytes of the buffer view of that index.
+/// Returns the bytes of the buffer view with this index.
 [[nodiscard]] Bytes view_bytes(const Document& document, const JsonPlace& index);
 
-/// The message about data that only an extension could decompress.
+/// Returns the message about data that only an extension could decompress.
 [[nodiscard]] std::string compressed(std::string_view extension);
 
-/// The member "name"; empty where it is missing. Very long names are truncated: they are copied for each instance.
+/// Returns the member "name"; empty if it is missing. Very long names are truncated, because they are copied for each
+/// instance.
 [[nodiscard]] std::string name_of(const JsonPlace& object);
 
-/// The extension of an object, or nothing.
+/// Returns the extension of an object, or nothing.
 [[nodiscard]] std::optional<JsonPlace> extension(const JsonPlace& object, const char* name);
 
-/// A number that may be missing.
+/// Returns a number that may be missing.
 [[nodiscard]] double number_or(const JsonPlace& object, const char* key, double otherwise);
 
-/// A whole number below `count`, such as an index into an array of that size.
+/// Returns a whole number below `count`, such as an index into an array of that size.
 [[nodiscard]] std::size_t index_below(const JsonPlace& value, std::size_t count);
-/// The same for a member that may be missing.
+/// Returns the same for a member that may be missing.
 [[nodiscard]] std::optional<std::size_t> find_index(const JsonPlace& object, const char* key, std::size_t count);
 
-/// A whole number of fewer than 32 bits.
+/// Returns a whole number of fewer than 32 bits.
 [[nodiscard]] inline std::size_t whole(const JsonPlace& value) { return value.whole(0, 0x7fffffff); }
 
 /// The largest accepted emission, radiant intensity or irradiance, as for the texels of environments: sums of several
 /// and their squares stay finite in float.
 inline constexpr double k_most_light = 1e15;
 
-/// Three numbers in [0, k_most_light] times a scale; `place` is refused where the product is out of this range.
+/// Returns three numbers in [0, k_most_light] times a scale; refuses `place` if the product is out of this range.
 [[nodiscard]] Rgb light_amount(const JsonPlace& place, const std::array<double, 3>& color, double scale,
                                std::string_view what);
 
-/// In a mesh's extras: its TEXCOORD_1 only fills a gap and does not hold lightmap UVs.
+/// Flag in a mesh's extras: its TEXCOORD_1 only fills a gap and does not hold lightmap UVs.
 inline constexpr const char* k_no_lightmap = "lobelia_no_lightmap";
 
 }  // namespace lobelia::gltf

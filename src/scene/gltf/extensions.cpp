@@ -10,14 +10,14 @@ namespace {
 constexpr std::string_view k_copy = "decompress the file first: gltf-transform copy IN.glb OUT.glb";
 constexpr std::string_view k_png = "convert its textures first: gltf-transform png IN.glb OUT.glb --formats \"*\"";
 constexpr std::string_view k_fallback = "its textures are read from their PNG, JPEG or WebP fallbacks only";
-constexpr std::string_view k_plain = "compressed data is not read, only its fallback";
+constexpr std::string_view k_plain = "compressed data is not supported; its fallback is read";
 
-/// What the reader does with an extension.
+/// An extension, and the reader's behaviour.
 struct Extension {
     std::string_view name;
     enum class Support { full, harmless, fallback, none } support;
-    std::string_view warning = {};  ///< where a file uses it; empty: none
-    std::string_view remedy = {};   ///< where a file requires it
+    std::string_view warning = {};  ///< for files that use it; empty: none
+    std::string_view remedy = {};   ///< for files that require it
 };
 using Support = Extension::Support;
 
@@ -27,14 +27,14 @@ constexpr std::array k_extensions{
     Extension{"KHR_materials_unlit", Support::full}, Extension{"KHR_mesh_quantization", Support::full},
     Extension{"KHR_node_visibility", Support::full}, Extension{"KHR_texture_transform", Support::full},
     Extension{"EXT_mesh_gpu_instancing", Support::full}, Extension{"EXT_texture_webp", Support::full},
-    // These change nothing that is baked, or only add a choice.
+    // Extensions that do not affect the bake, or only add alternatives.
     Extension{"KHR_materials_variants", Support::harmless}, Extension{"KHR_xmp", Support::harmless},
     Extension{"KHR_xmp_json_ld", Support::harmless}, Extension{"KHR_animation_pointer", Support::harmless},
     Extension{"MSFT_lod", Support::harmless}, Extension{"MSFT_packing_occlusionRoughnessMetallic", Support::harmless},
     Extension{"MSFT_packing_normalRoughnessMetallic", Support::harmless},
     Extension{"EXT_mesh_features", Support::harmless}, Extension{"EXT_structural_metadata", Support::harmless},
     Extension{"CESIUM_primitive_outline", Support::harmless}, Extension{"FB_geometry_metadata", Support::harmless},
-    // Files without the fallback are refused where it is missed.
+    // Extensions with a fallback; files without it are refused where it is needed.
     Extension{"EXT_texture_avif", Support::fallback, k_fallback, k_png},
     Extension{"MSFT_texture_dds", Support::fallback, k_fallback, k_png},
     Extension{"KHR_texture_basisu", Support::fallback, k_fallback,
@@ -48,7 +48,7 @@ Extension of_name(std::string_view name) {
     const auto found = std::find_if(k_extensions.begin(), k_extensions.end(),
                                     [&](const Extension& known) { return known.name == name; });
     if (found != k_extensions.end()) return *found;
-    return {name, Support::none, "not read", "export the file without it"};
+    return {name, Support::none, "not supported", "export the file without it"};
 }
 
 constexpr std::size_t k_most_extensions = 4096;
@@ -60,7 +60,8 @@ void check_extensions(Document& document, const JsonPlace& root) {
         for (const JsonPlace& entry : required->list(k_most_extensions)) {
             const Extension known = of_name(entry.long_text());
             if (known.support != Support::full && known.support != Support::harmless)
-                document.refuse("extensionsRequired", fmt::format("{:.60} is not read; {}", known.name, known.remedy));
+                document.refuse("extensionsRequired",
+                                fmt::format("{:.60} is not supported; {}", known.name, known.remedy));
         }
     if (const auto used = root.find("extensionsUsed"))
         for (const JsonPlace& entry : used->list(k_most_extensions))

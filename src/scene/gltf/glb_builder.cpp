@@ -1,17 +1,19 @@
-// A binary glTF file as it grows.
+// Builds a binary glTF file.
 #include "scene/gltf/glb_builder.h"
 
 #include <algorithm>
 #include <cstring>
 #include <limits>
 
+#include "io/json.h"
+#include "scene/gltf/accessors.h"
+
 namespace lobelia::gltf {
 namespace {
 
 using nlohmann::json;
 
-constexpr int k_vertices = 34962, k_elements = 34963;                          // bufferView.target
-constexpr int k_unsigned_short = 5123, k_unsigned_int = 5125, k_float = 5126;  // accessor.componentType
+constexpr int k_vertices = 34962, k_elements = 34963;  // bufferView.target
 
 template <class T>
 std::string_view bytes_of(std::span<const T> values) {
@@ -91,10 +93,10 @@ Result<std::string> GlbBuilder::finish() {
     if (!extensions_.empty()) root_["extensionsUsed"] = extensions_;
     pad(binary_, '\0');
     if (!binary_.empty()) root_["buffers"] = json::array({{{"byteLength", binary_.size()}}});
-    std::string text = root_.dump(-1, ' ', false, json::error_handler_t::replace);
+    std::string text = json_text(root_);
     pad(text, ' ');
 
-    // A header of 12 bytes, then each part after its length and type.
+    // Write a header of 12 bytes, then each chunk after its length and type.
     const std::size_t size = 12 + 8 + text.size() + (binary_.empty() ? 0 : 8 + binary_.size());
     if (size > std::numeric_limits<std::uint32_t>::max())
         return Error{"the scene takes more than 4 GiB, which a .glb file cannot hold"};

@@ -4,11 +4,12 @@
 
 #include "core/math/colour.h"
 #include "scene/gltf/nodes.h"
+#include "scene/light/light_kind.h"
 
 namespace lobelia::gltf {
 namespace {
 
-/// A transform with its scale removed, right-handed; nothing where its axes are degenerate.
+/// Returns a transform without its scale, right-handed; nothing if its axes are degenerate.
 std::optional<Transform> without_scale(const Transform& t) {
     const auto column = [&](int k) {
         const auto part = [&](Vec3 row) { return k == 0 ? row.x : k == 1 ? row.y : row.z; };
@@ -16,7 +17,7 @@ std::optional<Transform> without_scale(const Transform& t) {
     };
     Vec3 z = column(2), y = column(1);
     const auto unit = [](Vec3& v) {
-        // Twice, for a very small or large one.
+        // Normalise twice, for very small and large scales.
         for (int i = 0; i < 2; ++i) {
             const float largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
             if (!(largest > 0)) return false;
@@ -36,38 +37,18 @@ std::optional<Transform> without_scale(const Transform& t) {
     return result;
 }
 
-/// The half angles of a spot light. Exporters write equal angles for a hard edge (three.js by default), and pi / 2
-/// rounded up to the next float.
-void read_cone(const JsonPlace& source, PunctualLight& light) {
-    constexpr double k_rounding = 1e-6;
-    light.outer_angle = static_cast<float>(0.25 * k_pi);
-    const auto spot = source.find("spot");
-    if (!spot) return;
-    const double inner = number_or(*spot, "innerConeAngle", 0), outer = number_or(*spot, "outerConeAngle", 0.25 * k_pi);
-    if (!(inner >= 0 && outer > 0 && inner <= outer * (1 + k_rounding) && outer <= 0.5 * k_pi * (1 + k_rounding)))
-        spot->refuse("0 <= innerConeAngle <= outerConeAngle <= pi / 2 does not hold");
-    light.outer_angle = static_cast<float>(std::min(outer, 0.5 * k_pi));
-    light.inner_angle = std::min(static_cast<float>(inner), light.outer_angle);
-}
-
 void read_kind(const JsonPlace& source, PunctualLight& light) {
     const std::string_view type = source.at("type").long_text();
-    if (type == "point") {
-        light.kind = PunctualLight::Kind::point;
-    } else if (type == "spot") {
-        light.kind = PunctualLight::Kind::spot;
-        read_cone(source, light);
-    } else if (type == "directional") {
-        light.kind = PunctualLight::Kind::directional;
-        // glTF has no size for it: our own files carry one in the extras.
-        const auto extras = source.find("extras");
-        const auto radius = extras && extras->is_object() ? extras->find("angular_radius") : std::nullopt;
-        if (radius && !(radius->number() >= 0 && radius->number() < 0.5 * k_pi))
-            radius->refuse(fmt::format("{} is not in [0, pi / 2)", radius->number()));
-        if (radius) light.angular_radius = static_cast<float>(radius->number());
-    } else {
-        source.at("type").refuse("neither point, spot nor directional");
+    std::string names;
+    for (const PunctualLight::Kind kind : light_kinds()) {
+        const LightKind& known = light_kind(kind);
+        names += (names.empty() ? "" : ", ") + std::string(known.name);
+        if (known.name != type) continue;
+        light.kind = kind;
+        if (known.read != nullptr) known.read(source, light);
+        return;
     }
+    source.at("type").refuse("not one of " + names);
 }
 
 PunctualLight read_light(const Document& document, std::size_t index) {
@@ -81,7 +62,7 @@ PunctualLight read_light(const Document& document, std::size_t index) {
     if (const auto found = source.find("color")) found->numbers(color);
     light.intensity = light_amount(source, color, scale, "intensity");
     const auto range = source.find("range");
-    if (!range || light.kind == PunctualLight::Kind::directional) return light;
+    if (!range || light_kind(light.kind).place == LightPlace::far) return light;
     light.range = range->single();
     if (light.range < 0) range->refuse("negative");
     return light;
@@ -97,10 +78,10 @@ void add_light(Document& document, const NodeTree& tree, std::size_t node, Scene
     PunctualLight light = read_light(document, whole(*index));
     if (const std::string name = name_of(source); !name.empty()) light.name = name;
     const Transform placed = relative_to(scene.origin, tree.world_from_node[node]);
-    if (light.kind != PunctualLight::Kind::directional) light.position = placed.translation;
-    if (light.kind != PunctualLight::Kind::point) {
+    if (light_kind(light.kind).place == LightPlace::near) light.position = placed.translation;
+    if (light_kind(light.kind).aim == LightAim::along_direction) {
         const auto axes = without_scale(placed);
-        if (!axes) source.refuse("its scale leaves the light no direction");
+        if (!axes) source.refuse("degenerate scale: the light has no direction");
         light.direction = Vec3{axes->rows[0].z, axes->rows[1].z, axes->rows[2].z} * -1;
     }
     scene.lights.push_back(std::move(light));
@@ -121,7 +102,7 @@ void add_camera(Document& document, const NodeTree& tree, std::size_t node, Scen
     camera.vertical_field_of_view = angle.single();
     if (!(camera.vertical_field_of_view > 0 && camera.vertical_field_of_view < 3.1415f)) angle.refuse("not in (0, pi)");
     const auto axes = without_scale(relative_to(scene.origin, tree.world_from_node[node]));
-    if (!axes) document.nodes[node].refuse("its scale leaves the camera no axes");
+    if (!axes) document.nodes[node].refuse("degenerate scale: the camera has no axes");
     camera.world_from_camera = *axes;
     scene.cameras.push_back(std::move(camera));
 }

@@ -12,20 +12,20 @@
 namespace lobelia::gltf {
 namespace {
 
-/// A texture as a material of the file refers to it.
+/// A reference of a material to a texture of the file.
 struct Reference {
-    std::size_t texture = 0;    ///< of the file
+    std::size_t texture = 0;    ///< index in the file
     std::size_t tex_coord = 0;  ///< TEXCOORD set
     TextureUse use;
 };
 
-/// What a material is before textures and uv sets have their numbers in the scene.
+/// A material before its textures and uv sets have their indices in the scene.
 struct Draft {
     Material material;
     std::optional<Reference> base_color, metallic_roughness, emissive;
 };
 
-/// KHR_texture_transform: offset, then rotation, then scale, as one matrix.
+/// Reads KHR_texture_transform: offset, then rotation, then scale, as one matrix.
 void read_transform(const JsonPlace& source, Reference& reference) {
     std::array<double, 2> offset{0, 0}, scale{1, 1};
     if (const auto found = source.find("offset")) found->numbers(offset);
@@ -51,10 +51,10 @@ std::optional<Reference> read_reference(const Document& document, const JsonPlac
     return reference;
 }
 
-/// A factor that glTF limits to [0, 1], clamped to it with a warning.
+/// Returns a factor that glTF limits to [0, 1], clamped to it with a warning.
 float clamped_factor(Document& document, double value, const JsonPlace& place) {
     if (value >= 0 && value <= 1) return static_cast<float>(value);
-    document.warn(place, fmt::format("{} is not in [0, 1]; cut to that", value));
+    document.warn(place, fmt::format("{} is not in [0, 1]; clamped", value));
     return value > 1 ? 1.0f : 0.0f;
 }
 
@@ -88,7 +88,7 @@ void read_specular(Document& document, const JsonPlace& source, Material& materi
         material.specular_color = {c.x, c.y, c.z};
     }
     if (extended->has("specularTexture") || extended->has("specularColorTexture"))
-        document.warn(*extended, "its textures are not read, only the factors");
+        document.warn(*extended, "its textures are not supported; only the factors are used");
 }
 
 void read_alpha(const JsonPlace& source, Material& material) {
@@ -128,7 +128,7 @@ void read_metallic_roughness(Document& document, const JsonPlace& source, Draft&
 
 Draft read_draft(Document& document, const JsonPlace& source) {
     if (extension(source, "KHR_materials_pbrSpecularGlossiness"))
-        source.refuse(fmt::format("KHR_materials_pbrSpecularGlossiness is not read; {}", k_metalrough));
+        source.refuse(fmt::format("KHR_materials_pbrSpecularGlossiness is not supported; {}", k_metalrough));
     Draft draft;
     Material& material = draft.material;
     material.name = name_of(source);
@@ -142,7 +142,7 @@ Draft read_draft(Document& document, const JsonPlace& source) {
     return draft;
 }
 
-/// Warns once about a map that is left out: how many materials have it, the first of them, and the consequence.
+/// Warns once about an unsupported map: the number of materials that have it, the first of them, and the consequence.
 void warn_of_maps(Document& document, const char* key, std::string_view maps, std::string_view consequence) {
     std::size_t count = 0, first = 0;
     for (std::size_t i = 0; i < document.materials.size(); ++i)
@@ -152,7 +152,7 @@ void warn_of_maps(Document& document, const char* key, std::string_view maps, st
                                            name_of(document.materials[first]), consequence));
 }
 
-/// Sets 0 and 1 keep their numbers; where others are used, the lowest two become 0 and 1.
+/// Chooses uv sets: 0 and 1 keep their numbers; if others are used, the lowest two become 0 and 1.
 UvSets choose_sets(Document& document, const std::set<std::size_t>& used) {
     UvSets sets;
     if (used.empty()) return sets;
@@ -170,7 +170,7 @@ UvSets choose_sets(Document& document, const std::set<std::size_t>& used) {
     return sets;
 }
 
-/// A reference by the scene's numbers; nothing where its texture or uv set was left out.
+/// Converts a reference to the scene's indices; nothing if its texture or uv set was left out.
 std::optional<TextureUse> numbered(const std::optional<Reference>& reference,
                                    const std::vector<std::optional<std::size_t>>& of_texture, const UvSets& uv_sets) {
     if (!reference || !of_texture[reference->texture]) return std::nullopt;
@@ -187,8 +187,8 @@ std::optional<TextureUse> numbered(const std::optional<Reference>& reference,
 UvSets read_materials(Document& document, Scene& scene) {
     std::vector<Draft> drafts;
     for (const JsonPlace& material : document.materials) drafts.push_back(read_draft(document, material));
-    warn_of_maps(document, "normalTexture", "normal maps", "not read; surfaces have the normals of their vertices");
-    warn_of_maps(document, "occlusionTexture", "occlusion maps", "not read; the paths find what hides what");
+    warn_of_maps(document, "normalTexture", "normal maps", "not supported; surfaces use their vertex normals");
+    warn_of_maps(document, "occlusionTexture", "occlusion maps", "not used; path tracing computes occlusion");
 
     // Decode the textures that are used, and choose the uv sets.
     std::vector<bool> used(document.textures.size());
@@ -202,7 +202,7 @@ UvSets read_materials(Document& document, Scene& scene) {
     const auto of_texture = read_textures(document, used, scene.textures);
     const UvSets uv_sets = choose_sets(document, sets);
 
-    // Refer to them by the scene's numbers.
+    // Replace the references by the scene's indices.
     for (Draft& draft : drafts) {
         draft.material.base_color_texture = numbered(draft.base_color, of_texture, uv_sets);
         draft.material.metallic_roughness_texture = numbered(draft.metallic_roughness, of_texture, uv_sets);

@@ -1,4 +1,4 @@
-// Meshes of a glTF file: all primitives of one as triangles in one list.
+// Meshes of a glTF file: all primitives of a mesh as triangles in one list.
 #include "scene/gltf/meshes.h"
 
 #include <algorithm>
@@ -13,18 +13,18 @@ namespace lobelia::gltf {
 namespace {
 
 struct PrimitiveTriangles {
-    std::vector<Triangle> triangles;  ///< over the block's vertices, then over the mesh's
+    std::vector<Triangle> triangles;  ///< indices of the block's vertices, later of the mesh's
     std::uint32_t material = 0;
 };
 
-/// Vertices that one or more primitives of a mesh share. Those in use lie together in the mesh, from `first` on.
+/// Vertices shared by one or more primitives of a mesh. The used ones are consecutive in the mesh, from `first` on.
 struct Block {
-    JsonPlace primitive;  ///< the first of them
+    JsonPlace primitive;  ///< the first primitive of the block
     JsonPlace attributes;
     std::size_t vertices = 0;
     std::vector<std::size_t> primitives;
     std::size_t first = 0;
-    std::vector<std::uint32_t> used;  ///< in the file's numbers
+    std::vector<std::uint32_t> used;  ///< indices in the file
 
     [[nodiscard]] bool has(const std::string& name) const { return !name.empty() && attributes.has(name.c_str()); }
 };
@@ -40,7 +40,7 @@ class MeshReader {
   public:
     MeshReader(MeshContext& context, std::size_t index, const Pose& pose)
         : context_(context), document_(context.document), source_(document_.meshes[index]), pose_(pose) {
-        // A set that our own writer only put there to fill a gap holds no lightmap UVs.
+        // Ignore a set that write_gltf added only to fill a gap: it holds no lightmap UVs.
         const std::size_t set = document_.options.uv_set;
         const auto extras = source_.find("extras");
         const bool fills_gap = set == 1 && extras && extras->is_object() && extras->has(k_no_lightmap);
@@ -62,14 +62,14 @@ class MeshReader {
     }
 
   private:
-    /// Compressed primitives may bring plain data, too, to fall back on.
+    /// Returns whether a compressed primitive has plain data to fall back on.
     [[nodiscard]] bool has_position_data(const JsonPlace& attributes) const {
         const auto index = find_index(attributes, "POSITION", document_.accessors.size());
         return index && document_.accessors[*index].has("bufferView");
     }
 
     void read_primitive(const JsonPlace& primitive) {
-        // Leave out what is not a surface.
+        // Skip primitives that are not surfaces.
         const JsonPlace attributes = primitive.at("attributes");
         if (extension(primitive, "KHR_draco_mesh_compression") && !has_position_data(attributes))
             primitive.refuse(compressed("KHR_draco_mesh_compression"));
@@ -82,7 +82,7 @@ class MeshReader {
             return;
         }
 
-        // Read its triangles, over the vertices that it may share with others.
+        // Read its triangles, whose vertices it may share with other primitives.
         Block& block = block_of(primitive, attributes);
         auto triangles = read_triangles(document_, primitive, block.vertices,
                                         document_.options.most_triangles - context_.totals.triangles);
@@ -91,7 +91,7 @@ class MeshReader {
         primitives_.push_back({std::move(triangles), material_of(primitive)});
     }
 
-    /// Primitives with the same attributes and morph targets share a block.
+    /// Returns the block of all primitives with the same attributes and morph targets.
     Block& block_of(const JsonPlace& primitive, const JsonPlace& attributes) {
         std::vector<std::pair<std::string, std::size_t>> key;
         for (const auto& [name, index] : attributes.members()) key.emplace_back(name, whole(index));
@@ -116,7 +116,7 @@ class MeshReader {
         return context_.default_material;
     }
 
-    /// The mesh has what any of its parts has; but lightmap UVs only if all have them.
+    /// Gives the mesh the attributes that any of its parts has; lightmap UVs only if all have them.
     void choose_attributes() {
         std::size_t with_lightmap = 0, with_triangles = 0;
         std::vector<JsonPlace> bare;
@@ -142,7 +142,7 @@ class MeshReader {
         all.insert(all.end(), bare.begin(), bare.end());
     }
 
-    /// Keeps the vertices that some triangle uses, in the file's order, and numbers them.
+    /// Keeps the used vertices, in the file's order, and numbers them.
     void number_vertices() {
         std::size_t next = 0;
         for (Block& block : blocks_) {
@@ -155,7 +155,7 @@ class MeshReader {
             next += block.used.size();
             const std::size_t left = 3 * document_.options.most_triangles - context_.totals.vertices;
             if (next > left || next > std::numeric_limits<std::uint32_t>::max())
-                source_.refuse(fmt::format("{} vertices; at most {} are left to be read", next, left));
+                source_.refuse(fmt::format("{} vertices; the limit allows {} more", next, left));
         }
         context_.totals.vertices += next;
         document_.keep(source_, next, bytes_per_vertex());
@@ -173,7 +173,8 @@ class MeshReader {
                part(has_lightmap_uv_, sizeof(Vec2)) + part(has_uv_[0], sizeof(Vec2)) + part(has_uv_[1], sizeof(Vec2));
     }
 
-    /// Each triangle has vertices of its own: it is flat, and others of the mesh are not.
+    /// Gives each triangle its own vertices: the block has no normals and is flat, but other blocks of the mesh are
+    /// smooth.
     void separate_corners(Block& block) {
         for (const std::size_t p : block.primitives)
             for (Triangle& triangle : primitives_[p].triangles)
@@ -184,7 +185,7 @@ class MeshReader {
     }
 
     void share_vertices(Block& block) {
-        // List the vertices in use by marking them, or by sorting where few of many are.
+        // Collect the used vertices by marking them, or by sorting if they are a small fraction.
         std::size_t corners = 0, end = 0;
         for (const std::size_t p : block.primitives) {
             corners += 3 * primitives_[p].triangles.size();
@@ -202,7 +203,7 @@ class MeshReader {
         std::sort(block.used.begin(), block.used.end());
         block.used.erase(std::unique(block.used.begin(), block.used.end()), block.used.end());
 
-        // Number them.
+        // Number the vertices.
         for (std::size_t i = 0; i < block.used.size() && dense; ++i)
             number[block.used[i]] = static_cast<std::uint32_t>(i);
         for (const std::size_t p : block.primitives)
@@ -218,7 +219,7 @@ class MeshReader {
 
     using Value = std::array<float, 4>;
 
-    /// Reads one attribute of a block's used vertices, if it has it; `store` takes index, value and number of
+    /// Reads one attribute of a block's used vertices, if it has it; `store` receives index, value and number of
     /// components.
     template <class Store>
     void read_attribute(const Block& block, const std::string& name, std::array<std::size_t, 2> components,

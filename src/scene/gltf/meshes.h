@@ -1,4 +1,4 @@
-// Meshes of a glTF file: all primitives of one as triangles in one list.
+// Meshes of a glTF file: all primitives of a mesh as triangles in one list.
 #pragma once
 
 #include "scene/gltf/materials.h"
@@ -6,13 +6,13 @@
 
 namespace lobelia::gltf {
 
-/// Something that several triangles or normals have wrong: reported once, with the first of them.
+/// A fault of several triangles or normals: reported once, with the first of them.
 struct Tally {
     std::size_t count = 0;
     std::string first;
 };
 
-/// The use of the limits by all meshes together, and what is to be reported about them.
+/// Totals of all meshes, for limits and reports.
 struct MeshTotals {
     std::size_t triangles = 0, vertices = 0;
     Tally no_area, opposed_normals;     ///< triangles

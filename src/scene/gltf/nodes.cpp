@@ -17,7 +17,7 @@ bool fits_float(const Placement& placement) {
     return true;
 }
 
-/// Translation, then rotation by a quaternion (x, y, z, w), then scale.
+/// A transform: translation, then rotation by a quaternion (x, y, z, w), then scale.
 struct Trs {
     std::array<double, 3> translation{0, 0, 0}, scale{1, 1, 1};
     std::array<double, 4> rotation{0, 0, 0, 1};
@@ -38,7 +38,7 @@ Placement placement_from(const Trs& trs) {
 
 Placement local_placement(const JsonPlace& node) {
     if (const auto matrix = node.find("matrix")) {
-        // Column by column.
+        // Read it column by column.
         std::array<double, 16> m{};
         matrix->numbers(m);
         Placement result;
@@ -80,8 +80,8 @@ std::vector<std::optional<std::size_t>> find_parents(const Document& document,
     return parent;
 }
 
-/// Places every node, depth first without recursion: hierarchies may be of any depth. `shown` receives those that hang
-/// from `roots` and are visible.
+/// Computes the placement of every node, depth first without recursion: hierarchies may be of any depth. `shown`
+/// receives the visible nodes below `roots`.
 class TreeWalk {
   public:
     TreeWalk(const Document& document, const std::vector<std::vector<std::size_t>>& children, NodeTree& tree)
@@ -132,7 +132,7 @@ class TreeWalk {
     std::size_t hidden_ = 0;
 };
 
-/// The nodes from which the scene hangs.
+/// Returns the root nodes of the scene.
 std::vector<std::size_t> find_roots(Document& document, const NodeTree& tree) {
     std::vector<std::size_t> roots;
     const auto chosen = default_scene(document);
@@ -150,8 +150,8 @@ std::vector<std::size_t> find_roots(Document& document, const NodeTree& tree) {
         const std::size_t n = whole(entry);
         if (n >= listed.size()) list->refuse(fmt::format("{} of {}", n, listed.size()));
         if (tree.parent[n])
-            list->refuse(fmt::format("nodes[{}] is no root but a child of nodes[{}]", n, *tree.parent[n]));
-        if (listed[n]) list->refuse(fmt::format("nodes[{}] stands there twice", n));
+            list->refuse(fmt::format("nodes[{}] is not a root: it is a child of nodes[{}]", n, *tree.parent[n]));
+        if (listed[n]) list->refuse(fmt::format("nodes[{}] is listed twice", n));
         listed[n] = true;
         roots.push_back(n);
     }
@@ -198,10 +198,11 @@ NodeTree read_nodes(Document& document) {
     for (std::size_t i = 0; i < children.size(); ++i)
         if (!tree.parent[i] && !walk.reached()[i]) walk.walk(i, false);
 
-    // With one parent each, a node that is not below a root is in a cycle.
+    // As each node has at most one parent, a node that is not below a root is in a cycle.
     const auto lost = std::find(walk.reached().begin(), walk.reached().end(), false);
     if (lost != walk.reached().end())
-        document.nodes[static_cast<std::size_t>(lost - walk.reached().begin())].refuse("it is among its own ancestors");
+        document.nodes[static_cast<std::size_t>(lost - walk.reached().begin())].refuse(
+            "it is one of its own ancestors");
     if (walk.hidden() > 0)
         document.warn("nodes",
                       fmt::format("{} hidden by KHR_node_visibility, with all below; left out", walk.hidden()));
@@ -213,7 +214,7 @@ std::vector<Placement> instances_of(Document& document, const JsonPlace& node) {
     if (!instancing) return std::vector<Placement>(1);
     const JsonPlace attributes = instancing->at("attributes");
 
-    // Open translation, rotation and scale; all have one element for each copy.
+    // Open translation, rotation and scale; all have one element per copy.
     std::array<std::optional<Accessor>, 3> accessors;
     constexpr std::array<const char*, 3> k_names{"TRANSLATION", "ROTATION", "SCALE"};
     std::optional<std::size_t> count;
@@ -222,7 +223,7 @@ std::vector<Placement> instances_of(Document& document, const JsonPlace& node) {
         if (!index) continue;
         const Accessor& accessor = accessors[i].emplace(document, *index);
         if (accessor.components() != (i == 1 ? 4u : 3u) || (count && *count != accessor.count()))
-            index->refuse("not of the type and number of the others");
+            index->refuse("its type or count differs from the others");
         count = accessor.count();
     }
     if (!count) return std::vector<Placement>(1);

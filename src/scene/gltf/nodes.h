@@ -7,15 +7,15 @@
 
 namespace lobelia::gltf {
 
-/// p is moved to rows * (p, 1). In double precision, for scenes may lie far from their origin.
+/// An affine transform: p becomes rows * (p, 1). Double precision, because scenes may lie far from their origin.
 struct Placement {
     std::array<std::array<double, 4>, 3> rows{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
 };
 
-/// a after b: p is moved by b, then by a.
+/// Composes transforms: b is applied first, then a.
 [[nodiscard]] Placement product(const Placement& a, const Placement& b);
 
-/// The same in single precision, with `origin` moved to zero.
+/// Returns the same transform in single precision, with `origin` moved to zero.
 [[nodiscard]] Transform relative_to(const std::array<double, 3>& origin, const Placement& placement);
 
 struct NodeTree {
@@ -26,16 +26,17 @@ struct NodeTree {
     std::vector<std::size_t> shown;
 };
 
-/// Refuses nodes that form a cycle, and nodes with two parents.
+/// Reads all nodes. Refuses nodes that form a cycle, and nodes with two parents.
 [[nodiscard]] NodeTree read_nodes(Document& document);
 
-/// The index of the default scene, if there is any scene.
+/// Returns the index of the default scene, if there is any scene.
 [[nodiscard]] std::optional<std::size_t> default_scene(const Document& document);
 
-/// Placements relative to the node of the copies that EXT_mesh_gpu_instancing makes; without it, one identity.
+/// Returns the placements, relative to the node, of the copies that EXT_mesh_gpu_instancing makes; without it, one
+/// identity.
 [[nodiscard]] std::vector<Placement> instances_of(Document& document, const JsonPlace& node);
 
-/// The name of a node after those of its ancestors that have one: "house/door".
+/// Returns the name of a node after those of its ancestors that have one: "house/door".
 [[nodiscard]] std::string name_path(const Document& document, const NodeTree& tree, std::size_t node);
 
 /// Adds the lights and cameras of the shown nodes to the scene, in the order of the nodes.

@@ -34,7 +34,7 @@ void add_target(Document& document, const JsonPlace& target, const char* name, d
     });
 }
 
-/// The joints of each vertex, four to a set, and their weights.
+/// The joints of each vertex, four per set, and their weights.
 struct Influences {
     Accessor joints, weights;
 };
@@ -53,8 +53,8 @@ std::vector<Influences> open_influences(Document& document, const JsonPlace& pri
     return sets;
 }
 
-/// The sum of the joints' matrices by a vertex's weights, which are scaled to a sum of 1; the first joint's where they
-/// are all 0.
+/// Returns the sum of the joints' matrices weighted by a vertex's weights, which are scaled to a sum of 1; the first
+/// joint's matrix if they are all 0.
 Placement blend(const Pose& pose, const std::vector<Influences>& sets, std::uint32_t vertex,
                 const JsonPlace& primitive) {
     Placement sum{.rows = {}};

@@ -7,17 +7,17 @@
 
 namespace lobelia::gltf {
 
-/// How the vertices of a mesh are moved before a node places them.
+/// Displacements of a mesh's vertices, applied before a node places them.
 struct Pose {
     std::vector<double> weights;  ///< of the morph targets; empty: all are 0
-    /// From the mesh to the world of each joint, relative to the scene's origin; empty: no skin.
+    /// Matrix from the mesh to the world of each joint, relative to the scene's origin; empty: no skin.
     std::vector<Placement> joints;
 };
 
-/// The weights of a node's morph targets: the node's own or the mesh's; empty where all are 0.
+/// Returns the weights of a node's morph targets: the node's own or the mesh's; empty if all are 0.
 [[nodiscard]] std::vector<double> morph_weights(const JsonPlace& node, const JsonPlace& mesh);
 
-/// The joint matrices of a skin: each joint's world transform times its inverse bind matrix.
+/// Returns the joint matrices of a skin: each joint's world transform times its inverse bind matrix.
 [[nodiscard]] std::vector<Placement> joint_matrices(Document& document, const NodeTree& tree, std::size_t skin,
                                                     const std::array<double, 3>& origin);
 
@@ -28,8 +28,8 @@ struct PosedVertices {
     std::size_t count = 0;  ///< of the primitive in the file
 };
 
-/// Moves positions and normals (where the mesh has any) of these vertices. Returns which of them the pose mirrors: a
-/// triangle of such vertices must be turned round to keep its front in front. Empty: none.
+/// Moves positions and normals (if the mesh has any) of these vertices. Returns a flag for each that the pose mirrors:
+/// a triangle of such vertices must be reversed to keep its front in front. Empty: none.
 [[nodiscard]] std::vector<bool> apply_pose(Document& document, const Pose& pose, const JsonPlace& primitive,
                                            const PosedVertices& vertices, Mesh& mesh);
 

@@ -1,4 +1,4 @@
-// The triangles of a glTF primitive, and normals that a mesh lacks or spoils.
+// The triangles of a glTF primitive, and repair of missing or invalid normals.
 #include "scene/gltf/primitives.h"
 
 #include <algorithm>
@@ -35,7 +35,7 @@ bool has_triangles(std::size_t mode) { return mode >= k_triangles && mode <= k_f
 
 std::vector<Triangle> read_triangles(Document& document, const JsonPlace& primitive, std::size_t vertices,
                                      std::size_t most) {
-    // Open the indices; without any, vertices are taken in order.
+    // Open the indices; without any, vertices are used in order.
     std::optional<Accessor> indices;
     const auto at = primitive.find("indices");
     if (at) {
@@ -44,10 +44,10 @@ std::vector<Triangle> read_triangles(Document& document, const JsonPlace& primit
     }
     const std::size_t mode = mode_of(primitive);
     const std::size_t count = triangle_count(mode, indices ? indices->count() : vertices);
-    if (count > most) primitive.refuse(fmt::format("{} triangles; at most {} are left to be read", count, most));
+    if (count > most) primitive.refuse(fmt::format("{} triangles; the limit allows {} more", count, most));
     if (vertices > std::numeric_limits<std::uint32_t>::max()) primitive.refuse(fmt::format("{} vertices", vertices));
 
-    // Take each corner, and check that its vertex exists.
+    // Read each corner, and check that its vertex exists.
     document.keep(primitive, count, sizeof(Triangle) + sizeof(std::uint32_t));
     std::vector<Triangle> triangles(count);
     document.for_each(primitive, count, [&](std::size_t t) {
@@ -92,7 +92,7 @@ std::vector<bool> repair_normals(Mesh& mesh) {
     }
     if (!any) return {};
 
-    // Sum the triangles around them.
+    // Sum the normals of the triangles around them.
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
         for (const std::uint32_t v : mesh.triangles[t])
             if (bad[v]) mesh.normals[v] = mesh.normals[v] + area_vector(mesh, t);

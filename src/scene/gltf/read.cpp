@@ -1,4 +1,4 @@
-// Scenes from glTF 2.0 files (Khronos 2021).
+// Reads scenes from glTF 2.0 files (Khronos 2021).
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -15,7 +15,7 @@ namespace lobelia {
 namespace gltf {
 namespace {
 
-/// A mesh of the file as a node shows it: posed by a skin and morph targets, or as it is.
+/// A mesh of the file as a node shows it: posed by a skin and morph targets, or unchanged.
 struct MeshKey {
     std::size_t mesh = 0;
     std::optional<std::size_t> skin;
@@ -26,7 +26,7 @@ struct MeshKey {
 /// Copies of an object's name: its own, the world's, and those of the maps that find names of several.
 constexpr std::size_t k_names = 4;
 
-/// The box around points, in double precision.
+/// A bounding box, in double precision.
 struct Box {
     std::array<double, 3> low{std::numeric_limits<double>::max(), std::numeric_limits<double>::max(),
                               std::numeric_limits<double>::max()};
@@ -63,8 +63,8 @@ void add_corners(Box& target, const Box& box, const Placement& placement) {
     }
 }
 
-/// Boxes that lie this far from zero, in metres and in diagonals of their own, are moved: their floats would be as far
-/// apart as those of a scene a thousand times as large.
+/// Returns whether a box lies so far from zero, in metres and relative to its diagonal, that the scene should be moved:
+/// its floats would be as far apart as those of a scene a thousand times as large.
 bool is_far(const Box& box) {
     constexpr double k_metres = 1000, k_diagonals = 8;
     double largest = 0;
@@ -72,7 +72,7 @@ bool is_far(const Box& box) {
     return largest > k_metres && largest > k_diagonals * box.diagonal();
 }
 
-/// The distance between neighbouring floats at this distance from zero.
+/// Returns the distance between neighbouring floats at this distance from zero.
 double float_step(double distance) {
     const auto x = static_cast<float>(distance);
     return static_cast<double>(std::nextafter(x, std::numeric_limits<float>::infinity()) - x);
@@ -83,11 +83,11 @@ class SceneReader {
     explicit SceneReader(Document& document) : document_(document) {}
 
     LoadedScene read() {
-        // Materials first: they decide which texture coordinates are needed.
+        // Read materials first: they decide which texture coordinates are needed.
         const UvSets uv_sets = read_materials(document_, scene_);
         tree_ = read_nodes(document_);
         MeshContext context{document_, uv_sets, static_cast<std::uint32_t>(scene_.materials.size()), false, {}};
-        // Skins last: they pose their meshes around the origin that the others give.
+        // Read skins last: they pose their meshes around the origin that the others give.
         read_meshes(context, false);
         choose_origin();
         read_meshes(context, true);
@@ -100,7 +100,7 @@ class SceneReader {
         if (const Status s = check_scene(scene_); !s)
             throw JsonRefusal(fmt::format("{}: {}", document_.json.file(), s.error().message));
         warn_of_totals(context.totals);
-        LoadedScene loaded{std::move(scene_), std::move(document_.warnings), {}};
+        LoadedScene loaded{std::move(scene_), std::move(document_.warnings)};
         constexpr std::size_t k_most_parts = 8;
         for (const JsonPlace& part : context.totals.without_uv)
             if (loaded.parts_without_lightmap_uv.size() < k_most_parts)
@@ -154,7 +154,7 @@ class SceneReader {
                                          largest, float_step(largest)));
     }
 
-    /// Moves a scene that lies far from the origin of its world near zero.
+    /// Chooses an origin near the scene, if it lies far from the origin of its world.
     void choose_origin() {
         Box box;
         for (const std::size_t node : tree_.shown) {
@@ -176,7 +176,7 @@ class SceneReader {
         if (box.empty() || !is_far(box)) return;
         double distance = 0;
         for (std::size_t k = 0; k < 3; ++k) {
-            // Axes along which the scene lies near zero stay as they are.
+            // Leave axes along which the scene lies near zero unchanged.
             const double center = box.center(k);
             distance = std::max(distance, std::abs(center));
             scene_.origin[k] = std::abs(center) > box.diagonal() ? std::round(center) : 0;
@@ -193,7 +193,7 @@ class SceneReader {
         const auto mesh = key ? of_mesh_.find(*key) : of_mesh_.end();
         if (mesh == of_mesh_.end()) return;
 
-        // Count before making them.
+        // Count the objects before making them.
         const JsonPlace& source = document_.nodes[node];
         const GltfReadOptions& options = document_.options;
         const auto copies = instances_of(document_, source);
@@ -212,7 +212,7 @@ class SceneReader {
             Object object;
             object.name = copies.size() == 1 ? name : fmt::format("{} {}", name, i);
             object.mesh = mesh->second;
-            // A skin's matrices lead to the world: the node's own transform is ignored.
+            // Ignore the node's own transform: a skin's matrices map to the world.
             if (!key->skin)
                 object.world_from_object = relative_to(scene_.origin, product(tree_.world_from_node[node], copies[i]));
             scene_.objects.push_back(std::move(object));
@@ -220,7 +220,7 @@ class SceneReader {
         }
     }
 
-    /// Gives objects that share a name the path of names, and a number where that is shared, too.
+    /// Renames objects that share a name to the path of names, and adds a number if that is shared, too.
     void name_objects() {
         const auto count_names = [&] {
             std::map<std::string, std::size_t> uses;
@@ -257,11 +257,11 @@ class SceneReader {
         if (totals.opposed_normals.count > 0)
             document_.warn(
                 "meshes", fmt::format("{} with normals that point away from the front, the first is {}: light from the "
-                                      "front does not reach them; turn the normals or the winding round",
+                                      "front does not reach them; reverse the normals or the winding",
                                       counted(totals.opposed_normals.count, "triangle"), totals.opposed_normals.first));
         if (totals.repaired_normals > 0)
             document_.warn("meshes", counted(totals.repaired_normals, "normal") +
-                                         " without a direction; made from the triangles around them");
+                                         " without a direction; replaced by the mean of the triangles around them");
         if (document_.more_warnings > 0)
             document_.warnings.push_back("and " + counted(document_.more_warnings, "more warning"));
     }
@@ -269,8 +269,8 @@ class SceneReader {
     Document& document_;
     NodeTree tree_;
     Scene scene_;
-    std::map<MeshKey, std::size_t> of_mesh_;  ///< the index in the scene
-    std::vector<Box> boxes_;                  ///< of the scene's meshes
+    std::map<MeshKey, std::size_t> of_mesh_;  ///< index in the scene
+    std::vector<Box> boxes_;                  ///< boxes of the scene's meshes
     std::vector<std::size_t> node_of_object_;
     std::size_t triangles_ = 0;
 };

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t k_most_shown = 120;
 
-/// A URI as messages show it.
+/// Returns a URI in the form for messages.
 std::string shown(std::string_view uri) {
     std::string text;
     for (const char c : uri.substr(0, k_most_shown)) text += c >= 0x20 && c < 0x7f ? c : '?';
@@ -27,7 +27,7 @@ std::optional<unsigned> hex_digit(char c) {
     return std::nullopt;
 }
 
-/// RFC 3986: %XX is the byte XX.
+/// Decodes %XX to the byte XX (RFC 3986).
 Result<std::string> percent_decoded(std::string_view uri) {
     std::string text;
     for (std::size_t i = 0; i < uri.size(); ++i) {
@@ -44,7 +44,7 @@ Result<std::string> percent_decoded(std::string_view uri) {
     return text;
 }
 
-/// Values of the base64 alphabet (RFC 4648), 64 for all other characters.
+/// Values of the base64 alphabet (RFC 4648); 64 for all other characters.
 constexpr std::array<std::uint8_t, 256> k_base64 = [] {
     constexpr std::string_view alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     std::array<std::uint8_t, 256> values{};
@@ -101,7 +101,7 @@ Result<std::vector<std::byte>> decode_data_uri(std::string_view uri) {
 
 ResourceReader files_in(const std::filesystem::path& folder) {
     return [folder](const std::string& relative, std::size_t most_bytes) -> Result<std::vector<std::byte>> {
-        // Follow all links, and see that the file is still below the folder.
+        // Follow all links, and check that the file is still below the folder.
         std::error_code code;
         const std::filesystem::path base = std::filesystem::canonical(folder.empty() ? "." : folder, code);
         if (code) return Error{fmt::format("{}: {}", folder.string(), code.message())};

@@ -1,4 +1,4 @@
-// Textures of a glTF file: pictures, and how they repeat and are filtered.
+// Textures of a glTF file: images, wrapping and filtering.
 #include "io/read_picture.h"
 #include "scene/gltf/materials.h"
 
@@ -11,7 +11,7 @@ constexpr std::size_t k_nearest = 9728, k_linear = 9729;
 
 constexpr std::size_t k_bytes_per_texel = 4;
 
-/// What two of the file's textures must share to be one.
+/// Textures of the file with equal keys become one.
 struct Key {
     std::size_t image = 0;
     Texture::Wrap wrap_u = Texture::Wrap::repeat, wrap_v = Texture::Wrap::repeat;
@@ -39,22 +39,22 @@ void read_sampler(const Document& document, const JsonPlace& texture, Key& key) 
     if (mode == k_nearest) key.filter = Texture::Filter::nearest;
 }
 
-/// The image of a texture: its own, or that of EXT_texture_webp. Nothing where the file leaves it open. A texture whose
-/// only image has a format that is not read is refused like a missing file: it may be what lights the scene.
+/// Returns the image of a texture: its own, or that of EXT_texture_webp; nothing if the file specifies none. Refuses a
+/// texture whose only image has an unsupported format, like a missing file: it may light the scene.
 std::optional<std::size_t> find_image(Document& document, const JsonPlace& texture) {
     if (const auto source = find_index(texture, "source", document.images.size())) return source;
     if (const auto webp = extension(texture, "EXT_texture_webp"))
         return index_below(webp->at("source"), document.images.size());
     if (const auto extensions = texture.find("extensions"); extensions && extensions->size() > 0)
         texture.refuse(
-            fmt::format("its only image is in {:.60}, which is not read; convert it first: gltf-transform "
+            fmt::format("its only image is in {:.60}, which is not supported; convert it first: gltf-transform "
                         "png IN.glb OUT.glb --formats \"*\" (ktxdecompress for KHR_texture_basisu)",
                         extensions->members().front().first));
     document.warn(texture, "no image; left out");
     return std::nullopt;
 }
 
-/// The bytes of an image's file.
+/// Returns the bytes of an image's file.
 Bytes image_bytes(Document& document, const JsonPlace& image) {
     if (const auto view = image.find("bufferView")) return view_bytes(document, *view);
     const JsonPlace uri = image.at("uri");

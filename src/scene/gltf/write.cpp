@@ -1,4 +1,4 @@
-// Scenes into binary glTF 2.0 files (Khronos 2021).
+// Writes scenes to binary glTF 2.0 files (Khronos 2021).
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,6 +12,7 @@
 #include "lobelia/gltf.h"
 #include "scene/gltf/document.h"
 #include "scene/gltf/write_materials.h"
+#include "scene/light/light_kind.h"
 
 namespace lobelia {
 namespace gltf {
@@ -19,7 +20,7 @@ namespace {
 
 using nlohmann::json;
 
-/// Column by column; nothing for the identity.
+/// Returns the matrix, column by column; nothing for the identity.
 std::optional<json> matrix(const Transform& t) {
     const auto& [x, y, z] = t.rows;
     if (t.translation == Vec3{} && t.rows == Transform{}.rows) return std::nullopt;
@@ -27,14 +28,14 @@ std::optional<json> matrix(const Transform& t) {
                 1};
 }
 
-/// A node that looks along its -z in `direction`.
+/// Returns the transform of a node that looks along its -z in `direction`.
 Transform looking_along(Vec3 position, Vec3 direction) {
     const Vec3 z = direction * -1;
     const Vec3 x = normalize(cross(std::abs(z.y) < 0.9f ? Vec3{0, 1, 0} : Vec3{1, 0, 0}, z)), y = cross(z, x);
     return {{Vec3{x.x, y.x, z.x}, Vec3{x.y, y.y, z.y}, Vec3{x.z, y.z, z.z}}, position};
 }
 
-/// An accessor for each attribute of a mesh, and one of indices for each of its materials.
+/// Accessors of a mesh: one per attribute, and one of indices per material.
 struct MeshAccessors {
     json attributes;
     std::vector<std::pair<std::uint32_t, std::size_t>> primitives;
@@ -43,7 +44,7 @@ struct MeshAccessors {
 class Writer {
   public:
     Writer(const Scene& scene, const GltfWriteOptions& options) : scene_(scene), options_(options) {
-        // The second set is the lightmap's only if it is so in all meshes.
+        // Use the second set for the lightmap only if all meshes do.
         for (const Mesh& mesh : scene.meshes)
             if (!mesh.uv[1].empty() && (mesh.uv[1] != mesh.lightmap_uv || !options.lightmap_uv.empty()))
                 sets_.second_uv = 2;
@@ -91,7 +92,8 @@ class Writer {
         return Done{};
     }
 
-    /// The index of the file's mesh for an object: that of its own mesh, or one that differs only in the lightmap UVs.
+    /// Returns the index of the file's mesh for an object: that of its own mesh, or a copy that differs only in the
+    /// lightmap UVs.
     std::size_t mesh_of(std::size_t i) {
         const std::size_t m = scene_.objects[i].mesh;
         const bool own_uv = !options_.lightmap_uv.empty() && !options_.lightmap_uv[i].empty();
@@ -118,8 +120,8 @@ class Writer {
         return index;
     }
 
-    /// glTF numbers sets of texture coordinates without gaps: missing sets below others become copies of those. Returns
-    /// whether the lightmap's is one of them.
+    /// Copies texture coordinates to missing lower sets, because glTF numbers them without gaps. Returns whether the
+    /// lightmap's set is a copy.
     static bool fill_gaps(json& attributes) {
         bool fills_lightmap = false;
         const std::array<std::string, 3> names{"TEXCOORD_2", "TEXCOORD_1", "TEXCOORD_0"};
@@ -131,7 +133,7 @@ class Writer {
         return fills_lightmap;
     }
 
-    /// The accessors that all objects of a mesh share; written once.
+    /// Returns the accessors that all objects of a mesh share; written once.
     const MeshAccessors& accessors_of(std::size_t m) {
         if (const auto found = accessors_.find(m); found != accessors_.end()) return found->second;
         const Mesh& mesh = scene_.meshes[m];
@@ -143,7 +145,7 @@ class Writer {
         if (!mesh.uv[1].empty() && sets_.second_uv == 2)
             result.attributes["TEXCOORD_2"] = builder_.add_vectors(mesh.uv[1]);
 
-        // Indices by material, in the order of their first triangles.
+        // Group the indices by material, in the order of their first triangles.
         std::vector<std::uint32_t> order;
         std::map<std::uint32_t, std::vector<std::uint32_t>> indices;
         for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -159,23 +161,21 @@ class Writer {
     void write_lights() {
         json lights;
         for (const PunctualLight& light : scene_.lights) {
-            constexpr std::array<const char*, 3> k_kinds{"point", "spot", "directional"};
+            const LightKind& kind = light_kind(light.kind);
             const double intensity = std::max({light.intensity.r, light.intensity.g, light.intensity.b});
             const auto part = [&](float x) { return intensity > 0 ? x / intensity : 1; };
-            json out = {{"type", k_kinds[static_cast<std::size_t>(light.kind)]},
+            json out = {{"type", kind.name},
                         {"intensity", intensity},
                         {"color", {part(light.intensity.r), part(light.intensity.g), part(light.intensity.b)}}};
             if (!light.name.empty()) out["name"] = light.name;
             if (light.range > 0) out["range"] = light.range;
-            if (light.kind == PunctualLight::Kind::spot)
-                out["spot"] = {{"innerConeAngle", light.inner_angle}, {"outerConeAngle", light.outer_angle}};
-            if (light.angular_radius > 0) out["extras"]["angular_radius"] = light.angular_radius;
+            if (kind.write != nullptr) kind.write(light, out);
             json node;
             node["extensions"]["KHR_lights_punctual"]["light"] = lights.size();
             lights.push_back(std::move(out));
             Transform place;
             place.translation = light.position;
-            if (light.kind != PunctualLight::Kind::point) place = looking_along(light.position, light.direction);
+            if (kind.aim == LightAim::along_direction) place = looking_along(light.position, light.direction);
             add_node(std::move(node), light.name, place);
         }
         if (lights.empty()) return;
@@ -192,7 +192,7 @@ class Writer {
         }
     }
 
-    /// Puts all nodes below one that moves the scene back to its place in the world.
+    /// Moves all nodes below a new one that restores the scene's position in the world.
     void move_to_origin() {
         const auto& [x, y, z] = scene_.origin;
         if ((x == 0 && y == 0 && z == 0) || nodes_.empty()) return;

@@ -29,7 +29,7 @@ int wrap_mode(Texture::Wrap wrap) {
 
 int filter_mode(Texture::Filter filter) { return filter == Texture::Filter::nearest ? 9728 : 9729; }
 
-/// A texture's use as textureInfo; the error of a transform that KHR_texture_transform cannot express.
+/// Writes a texture's use as textureInfo. Errors: a transform that KHR_texture_transform cannot express.
 Result<json> texture_info(GlbBuilder& builder, const TextureUse& use, const WriteSets& sets) {
     json info = {{"index", use.texture}};
     const std::size_t set = use.uv_set == 0 ? 0 : sets.second_uv;
@@ -37,7 +37,7 @@ Result<json> texture_info(GlbBuilder& builder, const TextureUse& use, const Writ
     const auto& m = use.uv_from_mesh;
     if (m == TextureUse{}.uv_from_mesh) return info;
 
-    // Rotation times scale: the columns are (c sx, -s sx) and (s sy, c sy).
+    // Decompose rotation times scale: the columns are (c sx, -s sx) and (s sy, c sy).
     const double a = m[0][0], b = m[0][1], c = m[1][0], d = m[1][1];
     const double scale_x = std::hypot(a, c);
     const double angle = scale_x > 0 ? std::atan2(-c, a) : std::atan2(b, d);
@@ -53,7 +53,7 @@ Result<json> texture_info(GlbBuilder& builder, const TextureUse& use, const Writ
     return info;
 }
 
-/// Colour factors may not exceed 1: what does is in a common strength.
+/// Writes emission. Colour factors may not exceed 1; the rest goes into a common strength.
 void write_emission(GlbBuilder& builder, const Material& m, json& out) {
     const double strength = std::max({1.0f, m.emission.r, m.emission.g, m.emission.b});
     if (m.emission == Rgb{}) return;

@@ -6,7 +6,7 @@
 
 namespace lobelia::gltf {
 
-/// Where a mesh's second set of texture coordinates is written: TEXCOORD_1 where it is the lightmap's, else _2.
+/// Destination of a mesh's second set of texture coordinates: TEXCOORD_1 if it is the lightmap's, else _2.
 struct WriteSets {
     std::size_t second_uv = 1;
 };

@@ -1,6 +1,7 @@
-// Tables of the environment's texels.
+// Sampling tables over the environment's texels.
 #include "trace/light/environment_light.h"
 
+#include <cassert>
 #include <cmath>
 #include <numeric>
 
@@ -10,9 +11,6 @@ namespace lobelia {
 namespace {
 
 constexpr auto k_uniform_pdf = static_cast<float>(1 / (4 * k_pi));
-
-/// Luminance, never below 0 whatever an image holds.
-float brightness(Rgb radiance) { return std::max(0.0f, luminance(radiance)); }
 
 }  // namespace
 
@@ -29,7 +27,7 @@ EnvironmentLight::EnvironmentLight(const Image& image, Choice choice) : image_(&
         const double share = static_cast<double>(cosine_[y] - cosine_[y + 1]) / 2;
         row_weights[y] = static_cast<float>(sum * share);
         total += sum * share / static_cast<double>(image.width);
-        // A black row is never chosen, but must have a table.
+        // A black row is never chosen, but its table must exist.
         if (sum == 0) weights.assign(image.width, 1.0f);
         columns_.emplace_back(weights);
     }
@@ -40,7 +38,7 @@ EnvironmentLight::EnvironmentLight(const Image& image, Choice choice) : image_(&
 }
 
 EnvironmentLight::Texel EnvironmentLight::texel(Vec3 direction) const {
-    // As LatLong::index, but in single precision, and with rows parted by the table that directions are sampled from. A
+    // Compute LatLong::index in single precision, with rows separated by the table that directions are sampled from. A
     // row is 2.2e-5 of half a turn or more up to 45,000 rows, hence the guess is off by one at most.
     const auto cell = [](float at, std::size_t n) {
         return std::min(static_cast<std::size_t>(std::max(0.0f, at) * static_cast<float>(n)), n - 1);
@@ -52,9 +50,9 @@ EnvironmentLight::Texel EnvironmentLight::texel(Vec3 direction) const {
     return {x, y, y * image_->width + x};
 }
 
-EnvironmentSample EnvironmentLight::look(const Drawn& drawn) const {
-    // The probability of a texel is its luminance times its solid angle over the sum of these: over the solid angle,
-    // the latter cancels.
+EnvironmentSample EnvironmentLight::evaluate(const Drawn& drawn) const {
+    // The probability of a texel is its luminance times its solid angle, over the sum of these products. Dividing by
+    // the texel's solid angle for the density cancels that factor.
     const Rgb radiance = image_->pixels[drawn.texel];
     const float pdf = choice_ == Choice::uniform ? k_uniform_pdf : brightness(radiance) * density_;
     return {drawn.direction, radiance, pdf};
@@ -70,7 +68,7 @@ EnvironmentLight::Drawn EnvironmentLight::draw(Pair point) const {
     const float height = cosine_[y] + static_cast<float>(row_rest) * (cosine_[y + 1] - cosine_[y]);
     const float r = std::sqrt(std::max(0.0f, 1 - height * height));
     const auto turn = static_cast<float>((static_cast<double>(x) + column_rest) / static_cast<double>(image_->width));
-    // Column u looks to the azimuth pi (2 u - 1) (docs/conventions.md): half a turn is a change of sign.
+    // Column u has the azimuth pi (2 u - 1) (docs/conventions.md): half a turn is a change of sign.
     const auto [c, s] = cos_sin_turns(turn);
     return {{-r * s, height, r * c}, y * image_->width + x};
 }

@@ -1,7 +1,8 @@
-// The environment as a light source: directions by its brightness, one texel after another without gaps.
+// The environment as a light source: directions sampled by brightness, piecewise constant over texels.
 // Pharr, Jakob and Humphreys 2023, 12.5 (the idea); Vose 1991 (alias tables).
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "core/sample/sequence.h"
@@ -10,6 +11,9 @@
 
 namespace lobelia {
 
+/// Luminance, never below 0 whatever an image holds.
+[[nodiscard]] inline float brightness(Rgb radiance) { return std::max(0.0f, luminance(radiance)); }
+
 /// A direction towards the environment.
 struct EnvironmentSample {
     Vec3 direction;
@@ -17,28 +21,29 @@ struct EnvironmentSample {
     float pdf = 0;  ///< [1/sr]
 };
 
-/// Chooses a row, then a texel of it, in proportion to luminance times solid angle; then uniformly within the texel's
-/// solid angle. Radiance is constant over a texel. Sums stay short, so that float32 tables are exact enough.
+/// Samples a row, then a texel of it, in proportion to luminance times solid angle; then a direction uniformly within
+/// the texel's solid angle. Radiance is constant over a texel. Tables per row keep sums short, so that float32 is exact
+/// enough.
 class EnvironmentLight {
   public:
     enum class Choice { by_brightness, uniform };
     /// `image` must outlive this; precondition: at least one texel has luminance above 0.
     EnvironmentLight(const Image& image, Choice choice);
 
-    /// A direction and the texel that it came from, which `look` reads.
+    /// A sampled direction and its texel; the argument of `evaluate`.
     struct Drawn {
         Vec3 direction;
         std::size_t texel = 0;
     };
     [[nodiscard]] Drawn draw(Pair point) const;
-    [[nodiscard]] EnvironmentSample look(const Drawn& drawn) const;
-    [[nodiscard]] EnvironmentSample sample(Pair point) const { return look(draw(point)); }
+    [[nodiscard]] EnvironmentSample evaluate(const Drawn& drawn) const;
+    [[nodiscard]] EnvironmentSample sample(Pair point) const { return evaluate(draw(point)); }
     [[nodiscard]] float pdf(Vec3 direction) const;
-    /// A point that is mapped to `direction`; one with pdf 0 has none.
+    /// Returns the point that `sample` maps to `direction`. Precondition: pdf(direction) > 0.
     [[nodiscard]] Pair inverse(Vec3 direction) const;
-    /// Radiance and pdf there.
-    [[nodiscard]] EnvironmentSample at(Vec3 direction) const { return look({direction, texel(direction).index}); }
-    /// Luminance of the mean radiance [W/(m^2 sr)].
+    /// Returns radiance and pdf of `direction`.
+    [[nodiscard]] EnvironmentSample at(Vec3 direction) const { return evaluate({direction, texel(direction).index}); }
+    /// Returns the luminance of the mean radiance [W/(m^2 sr)].
     [[nodiscard]] float mean_luminance() const { return mean_luminance_; }
 
   private:
@@ -49,11 +54,11 @@ class EnvironmentLight {
 
     const Image* image_;
     Choice choice_;
-    std::vector<float> cosine_;  ///< of the polar angle, at the edges between rows
+    std::vector<float> cosine_;  ///< polar angle's cosine at the edges between rows
     std::vector<AliasTable> rows_;
     std::vector<AliasTable> columns_;  ///< one for each row
     float mean_luminance_ = 0;
-    float density_ = 0;  ///< pdf over the texel's luminance
+    float density_ = 0;  ///< pdf divided by the texel's luminance
 };
 
 }  // namespace lobelia

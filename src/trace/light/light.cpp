@@ -1,17 +1,17 @@
-// Choosing a source, and a point on it.
+// Sampling a light source, and a point on it.
 #include "trace/light/light.h"
 
 #include <cassert>
 #include <limits>
 
 #include "core/sample/directions.h"
+#include "scene/light/light_kind.h"
 
 namespace lobelia {
 namespace {
 
-constexpr float k_infinite = std::numeric_limits<float>::infinity();
-
-/// Uniform over the spherical cap about z whose rim has cosine 1 - flatness; exact for the smallest discs.
+/// Maps a point uniformly to the spherical cap about z whose rim has cosine 1 - flatness; accurate for the smallest
+/// discs.
 Vec3 cap_direction(float flatness, Pair point) {
     const float h = flatness * point.a, r = std::sqrt(h * (2 - h));
     const auto [c, s] = cos_sin_turns(point.b);
@@ -23,19 +23,11 @@ bool in_cap(Vec3 axis, float flatness, Vec3 direction) {
     return dot(d, d) <= 2 * flatness;
 }
 
-/// KHR_lights_punctual's window, which brings light to 0 at `range`.
+/// Returns KHR_lights_punctual's window, which attenuates light to 0 at `range`.
 float range_window(float distance2, float range) {
     if (range <= 0) return 1;
     const float q = distance2 / (range * range);
     return std::clamp(1 - q * q, 0.0f, 1.0f);
-}
-
-/// The cone of KHR_lights_punctual at `cosine` to the spot's direction; equal angles make a hard edge.
-float spot_cone(const PunctualLight& light, float cosine) {
-    const float inner = std::cos(light.inner_angle), outer = std::cos(light.outer_angle);
-    if (!(inner > outer)) return cosine >= outer ? 1 : 0;
-    const float t = std::clamp((cosine - outer) / (inner - outer), 0.0f, 1.0f);
-    return t * t;
 }
 
 }  // namespace
@@ -43,11 +35,11 @@ float spot_cone(const PunctualLight& light, float cosine) {
 SkyLight Lights::sky(const GroupWeights& weights, float total, const EnvironmentSample& environment) const {
     SkyLight light{environment.radiance, 0};
     const auto probability = [&](const LightSource& s) { return total > 0 ? s.share * weights[s.group] / total : 0; };
-    if (environment_ && aimed_at_) light.pdf = probability(sources_[0]) * environment.pdf;
+    if (environment_ && sample_lights_) light.pdf = probability(sources_[0]) * environment.pdf;
     for (const Sun& sun : suns_)
         if (sun.flatness > 0 && in_cap(sun.axes.z, sun.flatness, environment.direction)) {
             light.radiance = light.radiance + sun.radiance;
-            if (aimed_at_) light.pdf += probability(sources_[sun.source]) * sun.disc_pdf;
+            if (sample_lights_) light.pdf += probability(sources_[sun.source]) * sun.disc_pdf;
         }
     return light;
 }
@@ -60,7 +52,7 @@ SkyLight Lights::sky(const Vantage& at, Vec3 direction) const {
 }
 
 float Lights::triangle_pdf(const Vantage& at, std::uint32_t emitter, float distance, float cosine) const {
-    if (!aimed_at_) return 0;
+    if (!sample_lights_) return 0;
     GroupWeights weights;
     const float total = weights_.weigh(at, weights);
     const LightSource& s = sources_[source_of_emitter_[emitter]];
@@ -68,7 +60,7 @@ float Lights::triangle_pdf(const Vantage& at, std::uint32_t emitter, float dista
 }
 
 LightSample Lights::sample_triangle(const LightSource& source, float probability, const Vantage& at, Pair point) const {
-    // Choose a point uniformly by area (folding the square along its diagonal would tear strata; the root does not).
+    // Choose a point uniformly by area (folding the square along its diagonal would break strata; the root does not).
     const std::uint32_t triangle = surfaces_->emissive()[source.index];
     const Facet& f = surfaces_->facet(triangle);
     const float root = std::sqrt(point.a), u = root * (1 - point.b), v = root * point.b;
@@ -76,7 +68,7 @@ LightSample Lights::sample_triangle(const LightSource& source, float probability
     const float side = dot(f.normal, to);
     if (side == 0 || (side > 0 && !surfaces_->double_sided(triangle))) return {};
 
-    // Aim a little before it, so that it does not hide itself.
+    // End the shadow ray a little before the triangle, so that it does not hit the emitter itself.
     const Vec3 aim = to + f.normal * (side > 0 ? -f.lift : f.lift);
     const float distance2 = dot(to, to), distance = std::sqrt(distance2);
     const float pdf = probability * distance2 * distance / (source.area * std::abs(side));
@@ -91,7 +83,8 @@ LightSample Lights::sample_punctual(const PunctualLight& light, float probabilit
     if (distance2 < std::numeric_limits<float>::min()) return {};
     const Vec3 direction = to * (1 / distance);
     float factor = range_window(distance2, light.range) / (distance2 * probability);
-    if (light.kind == PunctualLight::Kind::spot) factor *= spot_cone(light, -dot(direction, light.direction));
+    if (const auto profile = light_kind(light.kind).profile; profile != nullptr)
+        factor *= profile(light, -dot(direction, light.direction));
     return {direction, distance, light.intensity * factor, 0};
 }
 
@@ -101,7 +94,7 @@ LightSample Lights::sample_sky(const LightSource& source, const GroupWeights& we
     if (source.kind == Kind::environment) {
         const EnvironmentLight::Drawn drawn = environment_->draw(point);
         if (dot(at.normal, drawn.direction) < 0) return {};
-        environment = environment_->look(drawn);
+        environment = environment_->evaluate(drawn);
     } else {
         const Sun& sun = suns_[source.index];
         if (sun.flatness == 0) {
@@ -117,16 +110,17 @@ LightSample Lights::sample_sky(const LightSource& source, const GroupWeights& we
 }
 
 LightSample Lights::sample(const Vantage& at, float choice, Pair point) const {
-    if (!aimed_at_ || groups_.empty()) return {};
+    if (!sample_lights_ || groups_.empty()) return {};
 
-    // Choose a group by its weight; what is left of the number chooses within it.
+    // Choose a group by its weight; reuse the remainder of the random number to choose within it.
     GroupWeights weights;
     const float total = weights_.weigh(at, weights);
     if (!(total > 0)) return {};
     float rest = choice * total;
     std::size_t g = 0;
     while (g + 1 < groups_.size() && rest >= weights[g]) rest -= weights[g++];
-    while (weights[g] == 0) --g;  // rounding may step past the last one; the total says that there is one
+    while (weights[g] == 0)
+        --g;  // rounding may step past the last group with a weight; a positive total guarantees one
     const LightGroup& group = groups_[g];
     std::uint32_t chosen = group.first;
     if (group.table) {
@@ -134,7 +128,7 @@ LightSample Lights::sample(const Vantage& at, float choice, Pair point) const {
         chosen += static_cast<std::uint32_t>(group.table->sample(left).index);
     }
 
-    // Sample the source itself.
+    // Sample the chosen source.
     const LightSource& source = sources_[chosen];
     if (group.far) return sample_sky(source, weights, total, at, point);
     const float probability = source.share * weights[g] / total;

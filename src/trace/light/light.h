@@ -1,4 +1,4 @@
-// All light sources of a scene, and the choice of one for a point that wants light.
+// All light sources of a scene, and the sampling of one for a shading point.
 // Shirley, Wang and Zimmerman 1996 (choosing lights); Veach 1997.
 #pragma once
 
@@ -14,15 +14,15 @@
 
 namespace lobelia {
 
-/// One light source as it would reach a point if nothing stood between.
+/// A sampled light source, before the shadow test.
 struct LightSample {
     Vec3 direction;      ///< unit, towards the source
-    float distance = 0;  ///< within which whatever stands hides it; infinite for the sky
-    Rgb irradiance;      ///< L / pdf, or that of a source without size over its probability; black: nothing comes
-    float pdf = 0;       ///< of the direction [1/sr]; 0 of a source without size
+    float distance = 0;  ///< length of the shadow ray; infinite for the sky
+    Rgb irradiance;  ///< L / pdf, or of a source without size: irradiance / probability; black if nothing can arrive
+    float pdf = 0;   ///< density of the direction [1/sr]; 0 for a source without size
 };
 
-/// Radiance from a direction in which no surface stands, and the density with which `sample` finds it.
+/// Radiance of a ray that hits no surface, and the density with which `sample` generates its direction.
 struct SkyLight {
     Rgb radiance;
     float pdf = 0;
@@ -34,23 +34,23 @@ class Lights {
     Lights(const Scene& scene, const Surfaces& surfaces, const PathOptions& options);
 
     [[nodiscard]] bool any() const { return !groups_.empty(); }
-    /// A source in proportion to what it might bring to the vantage, by its power and roughly its distance; then a
-    /// point on it.
+    /// Samples a source in proportion to its estimated irradiance at the shading point (power and, roughly, distance),
+    /// then a point on it.
     [[nodiscard]] LightSample sample(const Vantage& at, float choice, Pair point) const;
-    /// Density [1/sr] with which `sample` finds the point of emissive triangle `emitter` at this distance, whose normal
-    /// has this cosine to the ray.
+    /// Returns the density [1/sr] with which `sample` generates a point of emissive triangle `emitter`, at this
+    /// distance and with this cosine between its normal and the ray.
     [[nodiscard]] float triangle_pdf(const Vantage& at, std::uint32_t emitter, float distance, float cosine) const;
     [[nodiscard]] SkyLight sky(const Vantage& at, Vec3 direction) const;
 
   private:
     using Kind = LightSource::Kind;
-    /// A disc in the sky, or a parallel beam.
+    /// A directional light: a disc in the sky, or a parallel beam.
     struct Sun {
-        Axes axes;  ///< z towards it
+        Axes axes;  ///< z points towards the sun
         Rgb irradiance;
-        Rgb radiance;        ///< of the disc
+        Rgb radiance;        ///< radiance of the disc
         float flatness = 0;  ///< 1 - cosine of the angular radius; 0: a parallel beam
-        float disc_pdf = 0;  ///< uniform over the disc [1/sr]
+        float disc_pdf = 0;  ///< density of uniform sampling over the disc [1/sr]
         std::uint32_t source = 0;
         Sun(const Axes& a, Rgb e) : axes(a), irradiance(e) {}
     };
@@ -70,7 +70,7 @@ class Lights {
 
     const Scene* scene_;
     const Surfaces* surfaces_;
-    bool aimed_at_;
+    bool sample_lights_;
     std::optional<EnvironmentLight> environment_;
     std::vector<Sun> suns_;
     std::vector<LightSource> sources_;

@@ -1,4 +1,4 @@
-// Grouping light sources by place: halving at medians, the worst group first.
+// Groups light sources by position: splits at medians, the group with the largest error first.
 #include <algorithm>
 #include <array>
 #include <cassert>
@@ -11,13 +11,13 @@
 namespace lobelia {
 namespace {
 
-/// Near sources make at most this many groups.
+/// Maximum number of groups of near sources.
 constexpr std::size_t k_most_near_groups = 32;
-/// A group of intensity I and radius r is divided while I r^2 is more than this share of all intensity times the square
-/// of the radius around all: then its weight would be far off for who stands near it.
+/// A group of intensity I and radius r is split while I r^2 exceeds this fraction of total intensity times the square
+/// of the radius around all sources: above it the group's weight would be inaccurate for points near it.
 constexpr float k_division = 0.01f;
 
-/// A sphere around the spheres of all sources, centred between the corners of their box.
+/// Returns a sphere that encloses the spheres of all sources, centred in the box of their centres.
 std::pair<Vec3, float> bounds(std::span<const LightSource> sources) {
     Vec3 lowest = sources[0].centre, highest = lowest;
     for (const LightSource& s : sources) {
@@ -36,13 +36,13 @@ float total_strength(std::span<const LightSource> sources) {
     return static_cast<float>(sum);
 }
 
-/// How far off a group's weight may be.
-float badness(std::span<const LightSource> sources) {
+/// Estimates the error of a group's weight.
+float weight_error(std::span<const LightSource> sources) {
     const float radius = bounds(sources).second;
     return sources.size() == 1 ? 0 : total_strength(sources) * radius * radius;
 }
 
-/// Brings the sources into the order of their centres along the longest axis of these.
+/// Sorts the sources by their centres along the longest axis of the centres' box.
 void sort_along_longest_axis(std::span<LightSource> sources) {
     constexpr std::array axes = {&Vec3::x, &Vec3::y, &Vec3::z};
     const auto before = [](float Vec3::*axis) {
@@ -62,19 +62,19 @@ void sort_along_longest_axis(std::span<LightSource> sources) {
 
 std::vector<std::vector<LightSource>> grouped_by_place(std::vector<LightSource> sources) {
     std::vector<std::vector<LightSource>> groups;
-    std::vector<float> bad{badness(sources)};
+    std::vector<float> errors{weight_error(sources)};
     groups.push_back(std::move(sources));
-    const float good = k_division * bad[0];
+    const float tolerated = k_division * errors[0];
     while (groups.size() < k_most_near_groups) {
-        const auto worst = static_cast<std::size_t>(std::max_element(bad.begin(), bad.end()) - bad.begin());
-        if (!(bad[worst] > good)) break;
+        const auto worst = static_cast<std::size_t>(std::max_element(errors.begin(), errors.end()) - errors.begin());
+        if (!(errors[worst] > tolerated)) break;
         std::vector<LightSource>& group = groups[worst];
         sort_along_longest_axis(group);
         const auto middle = group.begin() + static_cast<std::ptrdiff_t>(group.size() / 2);
         std::vector<LightSource> second(middle, group.end());
         group.erase(middle, group.end());
-        bad[worst] = badness(group);
-        bad.push_back(badness(second));
+        errors[worst] = weight_error(group);
+        errors.push_back(weight_error(second));
         groups.push_back(std::move(second));
     }
     return groups;
@@ -99,7 +99,7 @@ LightGroup make_group(std::span<LightSource> sources, std::uint32_t first) {
             sources[i].share = static_cast<float>(group.table->probability(i));
     }
 
-    // One-sided triangles that all face one way are not seen from behind the hindmost.
+    // One-sided triangles that all face one way are invisible from behind the rearmost of them.
     const Vec3 front = sources[0].front;
     group.least = std::numeric_limits<float>::lowest();
     if (std::all_of(sources.begin(), sources.end(),

@@ -1,24 +1,23 @@
-// The light sources of a scene, found and put into groups.
+// Collects the light sources of a scene and groups them.
 #include <cmath>
 
+#include "scene/light/light_kind.h"
 #include "trace/light/light.h"
 
 namespace lobelia {
 namespace {
 
-/// More suns than this are chosen between by power alone.
+/// Maximum number of suns with a weight each; more are chosen by power alone.
 constexpr std::size_t k_single_suns = 16;
-
-float brightness(Rgb c) { return std::max(0.0f, luminance(c)); }
 
 }  // namespace
 
 Lights::Lights(const Scene& scene, const Surfaces& surfaces, const PathOptions& options)
-    : scene_(&scene), surfaces_(&surfaces), aimed_at_(options.next_event == Switch::on) {
+    : scene_(&scene), surfaces_(&surfaces), sample_lights_(options.next_event == Switch::on) {
     add_environment(options);
     add_suns(options);
     add_near();
-    // Let emitters and suns find their sources.
+    // Store the source of each emitter and of each sun.
     source_of_emitter_.resize(surfaces.emissive().size());
     for (std::uint32_t i = 0; i < sources_.size(); ++i) {
         if (sources_[i].kind == Kind::triangle) source_of_emitter_[sources_[i].index] = i;
@@ -50,7 +49,7 @@ void Lights::add_environment(const PathOptions& options) {
 void Lights::add_suns(const PathOptions& options) {
     std::vector<LightSource> suns;
     for (const PunctualLight& light : scene_->lights) {
-        if (light.kind != PunctualLight::Kind::directional || !(brightness(light.intensity) > 0)) continue;
+        if (light_kind(light.kind).place != LightPlace::far || !(brightness(light.intensity) > 0)) continue;
         const double radius = options.sun_size == Switch::on ? static_cast<double>(light.angular_radius) : 0;
         const double sine = std::sin(radius), half = std::sin(radius / 2);
         Sun sun{Axes(light.direction * -1.0f), light.intensity};
@@ -68,7 +67,7 @@ void Lights::add_suns(const PathOptions& options) {
         suns_.push_back(sun);
     }
     if (suns.size() > k_single_suns) {
-        // Seen from no side alone.
+        // Put all suns into one group without a direction, so that no receiver's normal culls it.
         add_group(suns);
     } else {
         for (LightSource& sun : suns) add_group({&sun, 1});
@@ -79,7 +78,7 @@ float Lights::mean_emission(std::uint32_t triangle) const {
     const Material& material = scene_->materials[surfaces_->facet(triangle).material];
     const float most = brightness(material.emission);
     if (!material.emissive_texture && material.alpha_mode == Material::Alpha::opaque) return most;
-    // Average over a grid of centroids; never less than a share of the factor, so that whatever emits is found.
+    // Average over a grid of centroids; keep at least a fraction of the factor, so that every emitter can be sampled.
     constexpr int n = 8;
     double sum = 0;
     for (int i = 0; i < n; ++i)
@@ -105,13 +104,13 @@ void Lights::add_near() {
         for (const Vec3 p : {f.corner, f.corner + f.edge_u, f.corner + f.edge_v})
             source.radius = std::max(source.radius, length(p - source.centre));
         if (surfaces_->double_sided(triangle)) continue;
-        // Rounding may put it this much lower.
+        // Allow for rounding: lower the offset.
         source.front = f.normal;
         source.least = dot(f.normal, source.centre) - 4 * f.lift;
     }
     for (std::uint32_t i = 0; i < scene_->lights.size(); ++i) {
         const PunctualLight& light = scene_->lights[i];
-        if (light.kind == PunctualLight::Kind::directional || !(brightness(light.intensity) > 0)) continue;
+        if (light_kind(light.kind).place == LightPlace::far || !(brightness(light.intensity) > 0)) continue;
         LightSource& source = sources.emplace_back();
         source.kind = Kind::punctual;
         source.index = i;

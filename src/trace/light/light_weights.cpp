@@ -1,4 +1,4 @@
-// Weights of groups of light sources, in vector lanes.
+// Sampling weights of groups of light sources, vectorised.
 #include "trace/light/light_weights.h"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace lobelia::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 float Weigh(const LightWeights::Rows& rows, std::size_t size, const Vantage& at, GroupWeights& weights) {
-    // Four at a time: most scenes have few groups, and going over to wider vectors and back costs more than it saves.
+    // Use four lanes: most scenes have few groups, and wider vectors cost more than they save.
     const hn::CappedTag<float, 4> d;
     using V = hn::Vec<decltype(d)>;
     const V px = hn::Set(d, at.position.x), py = hn::Set(d, at.position.y), pz = hn::Set(d, at.position.z);
@@ -48,7 +48,7 @@ namespace lobelia {
 HWY_EXPORT(Weigh);
 
 LightWeights::LightWeights() {
-    // What lies beyond the last group has no strength, and a distance to divide it by.
+    // Give unused entries zero strength and a nonzero distance to divide by.
     for (auto& row : rows_) row.fill(0);
     rows_[nearest].fill(1);
 }

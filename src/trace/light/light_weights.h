@@ -1,4 +1,4 @@
-// How much each group of light sources might bring to a point: what the choice between them goes by.
+// Sampling weights: estimates of each light group's irradiance at a point.
 #pragma once
 
 #include <array>
@@ -7,8 +7,8 @@
 
 namespace lobelia {
 
-/// A point that wants light, and the unit normal of the plane from below which none reaches it; (0, 0, 0): none does
-/// not.
+/// A shading point. Light from below the plane through `position` with `normal` is ignored; a zero normal accepts light
+/// from all directions.
 struct Vantage {
     Vec3 position;
     Vec3 normal;
@@ -17,11 +17,12 @@ struct Vantage {
 inline constexpr std::size_t k_most_groups = 64;
 using GroupWeights = std::array<float, k_most_groups>;
 
-/// The groups' outlines as a structure of arrays, for the weights of all are computed for every point.
+/// Parameters of the groups as a structure of arrays: all weights are evaluated for every shading point.
 class LightWeights {
   public:
-    /// Of each group: its bounding sphere, the plane before which its front is seen, its strength; `near` is 1, or 0 of
-    /// far sources, whose centre is a direction; `nearest` is the square of the distance below which it does not come.
+    /// Rows, with one value per group: its bounding sphere; the plane in front of which it is visible; its strength;
+    /// `near`, 1 or 0 (far sources, whose centre is a direction); `nearest`, the minimum of the squared distance in the
+    /// estimate.
     enum Row : std::size_t {
         centre_x,
         centre_y,
@@ -40,7 +41,7 @@ class LightWeights {
 
     LightWeights();
     void add(const LightGroup& group);
-    /// An estimate of each group's irradiance, 0 where none of it can reach the point. Returns their sum.
+    /// Estimates each group's irradiance; 0 where none of it can reach the point. Returns the sum.
     float weigh(const Vantage& at, GroupWeights& weights) const;
 
   private:

@@ -25,7 +25,7 @@ class FittedGaussians final : public FittedBasis {
     [[nodiscard]] std::string name() const override { return "sgfit" + std::to_string(count_); }
     [[nodiscard]] std::string description() const override;
     [[nodiscard]] Domain domain() const override { return Domain::sphere; }
-    /// Those of SgIrradiance that hold for any sharpness.
+    /// Returns the evaluators of SgIrradiance that are valid for any sharpness.
     [[nodiscard]] std::vector<std::string> evaluator_names() const override {
         return {"tokuyoshi", "odd-exact", "odd-exact-2", "exact"};
     }
@@ -34,7 +34,8 @@ class FittedGaussians final : public FittedBasis {
     [[nodiscard]] std::shared_ptr<const SpecularEvaluator> specular(std::string_view name) const override;
     [[nodiscard]] Rotated rotated(const Rotation& r, std::span<const Rgb> c) const override;
 
-    /// The lobes that coefficients stand for, and their amplitudes.
+    /// The lobes that coefficients stand for, and their amplitudes. A sharpness above 10000 counts as that; a lobe
+    /// whose axis or sharpness is not finite has an amplitude of NaN.
     struct Lobes {
         std::vector<gaussian::Lobe> lobes;
         std::vector<Rgb> amplitudes;

@@ -59,7 +59,7 @@ class Problem {
         for (auto& free : free_) free.fill(true);
     }
 
-    /// Of the light, squared and integrated.
+    /// Returns the integral of the squared light.
     [[nodiscard]] double energy() const { return energy_; }
     [[nodiscard]] Rgb amplitude(std::size_t j) const { return amplitudes_[j]; }
 
@@ -334,7 +334,8 @@ class Search {
 }  // namespace
 
 std::vector<FittedLobe> fit_lobes(std::span<const Rgb> light, std::size_t count) {
-    assert(light.size() == k_cells && count >= 1 && count <= k_most_lobes);
+    check_equal("cells", light.size(), k_cells);
+    check_range("lobes", count, 1, k_most_lobes);
     Problem problem(count, light);
     if (!(problem.energy() > 0)) return {};
     Search search(problem, count);

@@ -459,7 +459,7 @@ void SgIrradianceWeights::values_at(Vec3 normal, float* values) const {
 }
 
 Rgb SgIrradianceWeights::signed_irradiance_at(std::span<const Rgb> c, Vec3 normal) const {
-    assert(c.size() == size());
+    check_equal("coefficients", c.size(), size());
     if (size() > k_few_lobes) return evaluate(*this, c, normal);
     return HWY_DYNAMIC_DISPATCH(IrradianceAt)(kind_, lobe_rows_.data(), lobe_stride_, constant_count_, ambient_, c,
                                               normal);

@@ -67,7 +67,7 @@ class SgSpecularSum final : public SpecularEvaluator {
                 table_number(info_.error) + " of a lobe's reflected light, RMS over its axes", Reading::of_radiance, 0};
     }
     void reflected(std::span<const Rgb> c, const SpecularPoints& points, MutableColourView out) const override {
-        assert(c.size() == lights_.size() && out.size == points.size());
+        check_specular(lights_.size(), c, points, out);
         std::vector<float> rows(k_view_rows * k_block_size);
         for (std::size_t begin = 0; begin < points.size(); begin += k_block_size) {
             const std::size_t count = std::min(k_block_size, points.size() - begin);

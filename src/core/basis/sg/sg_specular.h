@@ -20,15 +20,15 @@ enum class SgSpecular { punctual, sg_warp, asg_warp, tokuyoshi_2024, moments, ma
 struct SgSpecularInfo {
     SgSpecular kind;
     std::string_view name;
-    /// Largest relative error, root mean square over all axes of a lobe over root mean square of the truth, for alpha
-    /// 0.1 to 0.8, n.v 0.25 to 1, sharpness 2 to 64; tested.
+    /// Largest relative error, root mean square over all axes of a lobe over root mean square of the reference, for
+    /// alpha 0.1 to 0.8, n.v 0.25 to 1, sharpness 2 to 64; tested.
     double error;
 };
 [[nodiscard]] std::span<const SgSpecularInfo> sg_specular_list();
 [[nodiscard]] std::optional<SgSpecular> sg_specular_from_name(std::string_view name);
 
-/// What `kind` makes of a unit lobe at each axis, in the view's own frame. Of sharpness 0, ambient light, every kind
-/// makes the surface's albedo.
+/// Evaluates the reflected light of a unit lobe at each axis, in the view's own frame. For sharpness 0, ambient light,
+/// every kind gives the surface's albedo.
 [[nodiscard]] std::vector<float> sg_specular(SgSpecular kind, const ggx::View& view, float sharpness,
                                              DirectionView axes);
 

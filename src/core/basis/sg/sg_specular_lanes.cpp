@@ -206,7 +206,7 @@ struct Masked {
         const V z2 = hn::Min(hn::Max(square(lifted), value(1e-12f)), value(1));
         const V hidden = hn::Add(s.row(k_row_masked), smith(s.alpha2, z2));
 
-        // What the widened surface shows of itself becomes what the real one shows.
+        // Replace the visible area of the widened surface by that of the actual one.
         const V shown = hn::Sqrt(hn::MulAdd(s.alpha2, square(s.sine), square(s.cosine)));
         const V seen = hn::Div(shown, hn::Mul(s.cosine, hidden));
         const V share = share_above(both.cosine, both.sharpness);

@@ -13,7 +13,7 @@ namespace lobelia {
 inline constexpr float k_gloss_middle = 2.22f, k_gloss_grazing = 0.37f, k_gloss_steepness = 1.775f;
 inline constexpr float k_gloss_soft = 1.22f, k_gloss_half = 0.707f;
 
-/// A lobe, and what the formulae want of it.
+/// A lobe, and its parameters for the formulae.
 struct SgLight {
     Vec3 axis;
     float sharpness, integral;

@@ -70,12 +70,20 @@ Vec3 spiral_point(std::size_t index, double z) {
 }
 
 constexpr std::size_t k_most_lobes = 512;
+constexpr float k_least_sharpness = 0.01f, k_most_sharpness = 1e4f;
+
+void check_sharpness(float sharpness, float least, SourcePlace place = SourcePlace::here()) {
+    if (!(sharpness >= least && sharpness <= k_most_sharpness))
+        contract_violated("sharpness: " + std::to_string(sharpness) + ", must be " + std::to_string(least) + " to " +
+                              std::to_string(k_most_sharpness),
+                          place);
+}
 
 std::optional<float> parse_sharpness(std::string_view text) {
     float sharpness = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), sharpness);
     if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-    return sharpness >= 0.01f && sharpness <= 1e4f ? std::optional(sharpness) : std::nullopt;
+    return sharpness >= k_least_sharpness && sharpness <= k_most_sharpness ? std::optional(sharpness) : std::nullopt;
 }
 
 Result<Lobe> parse_lobe(const std::string& line) {
@@ -92,7 +100,7 @@ Result<Lobe> parse_lobe(const std::string& line) {
     if (!(values >> axis.x >> axis.y >> axis.z >> lobe.sharpness) || (values >> rest))
         return Error{"expected \"x y z sharpness\" or \"ambient\""};
     if (!(length(axis) > 1e-6f) || !(length(axis) < 1e6f)) return Error{"the axis has no direction"};
-    if (!(lobe.sharpness >= 0 && lobe.sharpness <= 1e4f)) return Error{"sharpness must be 0 to 10000"};
+    if (!(lobe.sharpness >= 0 && lobe.sharpness <= k_most_sharpness)) return Error{"sharpness must be 0 to 10000"};
     // An axis that is unit already stays as it is, so that names give back the very lobes that they were made from.
     if (std::abs(length(axis) - 1) > 1e-6f) axis = normalize(axis);
     return lobe;
@@ -197,12 +205,13 @@ SphericalGaussians::SphericalGaussians(std::string name, std::vector<Lobe> lobes
 }
 
 std::shared_ptr<const LinearBasis> spherical_gaussians(std::size_t count, const GaussianOptions& options) {
-    assert(count >= 1 && count <= k_most_lobes);
+    check_range("lobes", count, 1, k_most_lobes);
     const bool whole = options.domain == Domain::sphere, ambient = options.ambient == GaussianOptions::Ambient::one;
-    assert(whole || !ambient);
+    if (!whole && ambient) contract_violated("an ambient lobe on the hemisphere: it is for the sphere only");
     auto lobes = whole ? vogel_sphere(count) : spiral_hemisphere(count);
     std::string name = "sg" + std::to_string(count) + (whole ? ambient ? "a" : "" : "h");
     if (options.sharpness) {
+        check_sharpness(*options.sharpness, k_least_sharpness);
         for (Lobe& lobe : lobes) lobe.sharpness = *options.sharpness;
         name += "@";
         append_number(name, *options.sharpness);
@@ -212,7 +221,8 @@ std::shared_ptr<const LinearBasis> spherical_gaussians(std::size_t count, const 
 }
 
 std::shared_ptr<const LinearBasis> spherical_gaussians(std::vector<Lobe> lobes, Domain domain) {
-    assert(!lobes.empty() && lobes.size() <= k_most_lobes);
+    check_range("lobes", lobes.size(), 1, k_most_lobes);
+    for (const Lobe& lobe : lobes) check_sharpness(lobe.sharpness, 0);
     std::string name = name_of(lobes, domain);
     return std::make_shared<SphericalGaussians>(std::move(name), std::move(lobes), domain);
 }
@@ -298,6 +308,7 @@ std::shared_ptr<const Evaluator> SphericalGaussians::evaluator(std::string_view 
 }
 
 Basis::Rotated SphericalGaussians::rotated(const Rotation& r, std::span<const Rgb> c) const {
+    check_equal("coefficients", c.size(), size());
     std::vector<Lobe> lobes = lobes_;
     for (Lobe& lobe : lobes) lobe.axis = rotate(r, lobe.axis);
     return {std::make_shared<SphericalGaussians>(name_, std::move(lobes), domain_), {c.begin(), c.end()}};

@@ -1,7 +1,6 @@
 // The steps of the degree-1 SH bake.
 #include "core/basis/sh/sh_baking.h"
 
-#include <cassert>
 #include <cmath>
 
 namespace lobelia::sh_baking {
@@ -32,7 +31,7 @@ Degree1 sums(SampleView samples, double factor0, double factor1) {
 
 /// |domain| / N.
 double share(SampleView samples, Domain domain) {
-    assert(samples.size > 0);
+    LOBELIA_ASSERT(samples.size > 0);
     return solid_angle(domain) / static_cast<double>(samples.size);
 }
 
@@ -47,7 +46,7 @@ Rgb each_channel(Rgb a, Rgb b, const F& f) {
     return {f(a.r, b.r), f(a.g, b.g), f(a.b, b.b)};
 }
 
-/// What a mean over the domain is multiplied by to be E / pi: |domain| / pi times 1/4, and times 1/2.
+/// Returns the factor from a mean over the domain to E / pi: |domain| / pi times 1/4, and times 1/2.
 constexpr float half_factor(Domain domain) { return domain == Domain::sphere ? 2 : 1; }
 
 }  // namespace
@@ -71,7 +70,7 @@ Degree1 merged(SampleView samples, Domain domain) {
 Rgb irradiance_of_merged(const Degree1& merged, Vec3 n) { return merged.constant + dot(merged.along, n); }
 
 Degree1 means(SampleView samples) {
-    assert(samples.size > 0);
+    LOBELIA_ASSERT(samples.size > 0);
     const double share = 1 / static_cast<double>(samples.size);
     return sums(samples, share, share);
 }
@@ -107,7 +106,7 @@ std::vector<Rgb> coefficients_of_means(const Degree1& means, Domain domain) {
 }
 
 Degree1 means_of_coefficients(std::span<const Rgb> c, Domain domain) {
-    assert(c.size() == 4);
+    check_equal("coefficients", c.size(), 4);
     const auto omega = static_cast<float>(solid_angle(domain));
     return scaled({c[0], {c[3], c[1], c[2]}}, 1 / (omega * k_Y0), 1 / (omega * k_Y1));
 }

@@ -2,7 +2,6 @@
 #include "lobelia/sh_conventions.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <string>
 
@@ -46,7 +45,7 @@ DegreeAndOrder degree_and_order(std::size_t index) {
 
 /// The factor of a polynomial in its orthonormal function.
 double polynomial_factor(std::size_t index) {
-    assert(index < 9);
+    check_range("index of a polynomial", index, 0, 8);
     const double constant = std::sqrt(1 / (4 * k_pi)), linear = std::sqrt(3 / (4 * k_pi)),
                  product = std::sqrt(15 / (4 * k_pi));
     if (index == 0) return constant;
@@ -98,13 +97,14 @@ std::vector<Rgb> exported(const ShConvention& convention, std::span<const Rgb> o
 }
 
 std::vector<Rgb> imported(const ShConvention& convention, std::span<const Rgb> theirs) {
-    assert(theirs.size() <= harmonics::coefficient_count(convention.degree));
+    check_range("coefficients", theirs.size(), 0, harmonics::coefficient_count(convention.degree));
     std::vector<Rgb> ours(theirs.size());
     for (std::size_t i = 0; i < ours.size(); ++i) ours[i] = scaled(theirs[i], 1 / sh_factor(convention, i));
     return ours;
 }
 
 std::vector<Rgb> mirrored(std::span<const Rgb> ours, std::size_t axis) {
+    check_range("axis", axis, 0, 2);
     // z: Legendre functions of l - |m|; y: the sign of the azimuth; x: the azimuth's distance from half a turn.
     std::vector<Rgb> result(ours.begin(), ours.end());
     for (std::size_t i = 0; i < result.size(); ++i) {
@@ -117,7 +117,7 @@ std::vector<Rgb> mirrored(std::span<const Rgb> ours, std::size_t axis) {
 }
 
 UnityShaderConstants unity_constants(std::span<const Rgb> nine) {
-    assert(nine.size() == 9);
+    check_equal("coefficients", nine.size(), 9);
     UnityShaderConstants constants;
     const auto channel = [&](std::size_t i, std::size_t k) {
         return k == 0 ? nine[i].r : k == 1 ? nine[i].g : nine[i].b;

@@ -57,6 +57,7 @@ void for_each_coefficient(std::size_t degree, const Visit& visit) {
 /// The coefficients times the factors of their bands, in `memory`, which has three floats for each.
 std::span<const Rgb> damped(std::size_t degree, std::span<const Rgb> c, std::span<const double> factors,
                             const Scratch& memory) {
+    check_equal("coefficients", c.size(), harmonics::coefficient_count(degree));
     Rgb* const result = new (memory.data()) Rgb[c.size()];
     for_each_coefficient(degree,
                          [&](std::size_t l, std::size_t i) { result[i] = c[i] * static_cast<float>(factors[l]); });
@@ -117,19 +118,24 @@ class BandFactors final : public LinearEvaluator {
 class Model final : public Evaluator {
   public:
     using Read = std::function<void(std::span<const Rgb>, DirectionView, MutableColourView)>;
-    Model(std::string name, std::string range, Read read)
-        : name_(std::move(name)), range_(std::move(range)), read_(std::move(read)) {}
+    Model(std::string name, std::string range, std::size_t degree, Read read)
+        : name_(std::move(name)),
+          range_(std::move(range)),
+          coefficients_(harmonics::coefficient_count(degree)),
+          read_(std::move(read)) {}
     [[nodiscard]] std::string name() const override { return name_; }
     [[nodiscard]] Negative negative() const override { return Negative::clamped; }
     [[nodiscard]] Accuracy accuracy() const override {
-        return {range_, "no error: it is a model", Reading::of_its_own, 1e-5};
+        return {range_, "none stated: a model", Reading::of_its_own, 1e-5};
     }
     void signed_irradiance(std::span<const Rgb> c, DirectionView normals, MutableColourView out) const override {
+        check_evaluation(coefficients_, c, normals, out);
         read_(c, normals, out);
     }
 
   private:
     std::string name_, range_;
+    std::size_t coefficients_;
     Read read_;
 };
 
@@ -319,7 +325,7 @@ std::shared_ptr<const Evaluator> sh_evaluator(std::string_view name, std::size_t
     if (name == "lanczos") return linear(lanczos_window(degree), Negative::clamped, Reading::of_its_own);
     if (name == "laplacian") return linear(laplacian_window(degree), Negative::clamped, Reading::of_its_own);
     const auto model = [&](const char* range, Model::Read read) {
-        return std::make_shared<Model>(std::string(name), range, std::move(read));
+        return std::make_shared<Model>(std::string(name), range, degree, std::move(read));
     };
     if (name == "dering") return model("every degree", dering_reader(degree));
     if (degree != 1) return nullptr;

@@ -17,7 +17,7 @@ class ZonalSpecular final : public SpecularEvaluator {
     enum class Kind { prefiltered, convolution };
 
     ZonalSpecular(Kind kind, std::size_t degree) : kind_(kind), harmonics_(degree) {
-        assert(degree <= ggx::k_zonal_degree);
+        check_range("degree", degree, 0, ggx::k_zonal_degree);
     }
     [[nodiscard]] std::string name() const override {
         return kind_ == Kind::convolution ? "sh-convolution" : "sh-prefiltered";
@@ -27,7 +27,7 @@ class ZonalSpecular final : public SpecularEvaluator {
                 0.005};
     }
     void reflected(std::span<const Rgb> c, const SpecularPoints& points, MutableColourView out) const override {
-        assert(c.size() == harmonics_.size() && out.size == points.size());
+        check_specular(harmonics_.size(), c, points, out);
         std::vector<float> rows(harmonics_.size() * k_block_size);
         Directions directions(k_block_size);
         std::vector<Read> reads(k_block_size);
@@ -43,7 +43,7 @@ class ZonalSpecular final : public SpecularEvaluator {
     }
 
   private:
-    // Root mean square over points, over that of the truth, for a lobe of degrees 2 to 8.
+    // Root mean square over points, over that of the reference, for a lobe of degrees 2 to 8.
     static constexpr const char* k_range = "alpha 0.1 to 0.8, n.v 0.25 to 1";
     static constexpr const char* k_convolution_error = "0.13 of the reflected light, RMS; 0 to degree 1";
     static constexpr const char* k_prefiltered_error = "0.7 of the reflected light, RMS; 0 for degree 0";
@@ -77,11 +77,13 @@ class ZonalSpecular final : public SpecularEvaluator {
 /// Degree 1 as ambient light and a lamp.
 class DominantSpecular final : public SpecularEvaluator {
   public:
+    explicit DominantSpecular(std::size_t degree) : coefficients_(harmonics::coefficient_count(degree)) {}
     [[nodiscard]] std::string name() const override { return "sh-dominant"; }
     [[nodiscard]] Accuracy accuracy() const override {
         return {"any alpha and view", "exact for constant light and for one lamp", Reading::of_its_own, 0.005};
     }
     void reflected(std::span<const Rgb> c, const SpecularPoints& points, MutableColourView out) const override {
+        check_specular(coefficients_, c, points, out);
         const Light light = split(c);
         for (std::size_t i = 0; i < points.size(); ++i) {
             ggx::View view = glossy_view(points, i);
@@ -119,6 +121,8 @@ class DominantSpecular final : public SpecularEvaluator {
         light.ambient = (sum - light.lamp) * (1 / (4 * static_cast<float>(k_pi)));
         return light;
     }
+
+    std::size_t coefficients_;
 };
 
 }  // namespace
@@ -126,7 +130,7 @@ class DominantSpecular final : public SpecularEvaluator {
 std::vector<std::string> sh_specular_names() { return {"sh-dominant", "sh-prefiltered", "sh-convolution"}; }
 
 std::shared_ptr<const SpecularEvaluator> sh_specular(std::string_view name, std::size_t degree) {
-    if (name == "sh-dominant") return std::make_shared<DominantSpecular>();
+    if (name == "sh-dominant") return std::make_shared<DominantSpecular>(degree);
     if (name == "sh-prefiltered") return std::make_shared<ZonalSpecular>(ZonalSpecular::Kind::prefiltered, degree);
     if (name == "sh-convolution") return std::make_shared<ZonalSpecular>(ZonalSpecular::Kind::convolution, degree);
     return nullptr;

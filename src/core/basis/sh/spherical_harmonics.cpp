@@ -9,7 +9,7 @@ constexpr std::size_t k_highest_degree = 8;
 }  // namespace
 
 std::shared_ptr<const LinearBasis> spherical_harmonics(std::size_t degree) {
-    assert(degree >= 1 && degree <= k_highest_degree);
+    check_range("degree", degree, 1, k_highest_degree);
     return std::make_shared<SphericalHarmonics>(degree);
 }
 
@@ -47,6 +47,7 @@ std::vector<float> SphericalHarmonics::lead_bounds() const {
 }
 
 Basis::Rotated SphericalHarmonics::rotated(const Rotation& r, std::span<const Rgb> c) const {
+    check_equal("coefficients", c.size(), size());
     return {std::make_shared<SphericalHarmonics>(harmonics_.degree()), harmonics::rotated(r, c)};
 }
 

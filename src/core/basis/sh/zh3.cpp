@@ -14,6 +14,8 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
+constexpr std::size_t k_coefficients = 5, k_accumulated = 9;
+
 const Vector3d k_luminance(0.2126, 0.7152, 0.0722);
 
 /// Row k is the channel's: degree 1 as a vector (x, y, z).
@@ -32,7 +34,7 @@ Matrix3d form_of(std::span<const Rgb> c, std::size_t k) {
     return m;
 }
 
-/// What an axis is worth: F(a) = a^T B a + sum_k s (a^T M_k a)^2, the error of irradiance that it saves.
+/// The gain of an axis: F(a) = a^T B a + sum_k s (a^T M_k a)^2, the reduction of the irradiance error.
 struct Gain {
     Matrix3d b;
     std::vector<Matrix3d> forms;
@@ -165,6 +167,7 @@ class Zh3Convolution final : public Evaluator {
         return {"everywhere", "1e-6 of the largest E (float32 rounding)"};
     }
     void signed_irradiance(std::span<const Rgb> c, DirectionView normals, MutableColourView out) const override {
+        check_evaluation(k_coefficients, c, normals, out);
         evaluate(functions_of(c, axis_, {k_pi, 2 * k_pi / 3, k_pi / 4}), normals, out);
     }
 
@@ -188,6 +191,8 @@ Result<std::shared_ptr<const Basis>> Zh3::from_name(std::string_view name) {
 std::shared_ptr<const LinearBasis> Zh3::accumulated() const { return std::make_shared<SphericalHarmonics>(2); }
 
 void Zh3::fit(std::span<const Rgb> accumulated, std::span<Rgb> c) const {
+    check_equal("accumulated coefficients", accumulated.size(), k_accumulated);
+    check_equal("coefficients", c.size(), k_coefficients);
     const Matrix3d vectors = vectors_of(accumulated);
     const double means[] = {accumulated[0].r, accumulated[0].g, accumulated[0].b};
     Matrix3d found;
@@ -229,6 +234,7 @@ void Zh3::fit(std::span<const Rgb> accumulated, std::span<Rgb> c) const {
 }
 
 void Zh3::radiance(std::span<const Rgb> c, DirectionView directions, MutableColourView out) const {
+    check_evaluation(k_coefficients, c, directions, out);
     evaluate(functions_of(c, axis_, {1, 1, 1}), directions, out);
 }
 
@@ -250,6 +256,7 @@ std::vector<float> Zh3::lead_bounds() const {
 }
 
 Basis::Rotated Zh3::rotated(const Rotation& r, std::span<const Rgb> c) const {
+    check_equal("coefficients", c.size(), k_coefficients);
     std::vector<Rgb> turned = harmonics::rotated(r, c.first(4));
     turned.push_back(c[4]);
     return {std::make_shared<Zh3>(axis_), std::move(turned)};

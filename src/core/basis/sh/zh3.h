@@ -29,7 +29,8 @@ class Zh3 final : public FittedBasis {
     }
     [[nodiscard]] std::shared_ptr<const Evaluator> evaluator(std::string_view name) const override;
     [[nodiscard]] Rotated rotated(const Rotation& r, std::span<const Rgb> c) const override;
-    /// Those of harmonics, where each channel's vector is only ever projected. A shared axis may lengthen them.
+    /// Returns the bounds of harmonics if each channel's vector is only projected; a shared axis may lengthen the
+    /// vectors.
     [[nodiscard]] std::vector<float> lead_bounds() const override;
 
   private:

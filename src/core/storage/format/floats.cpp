@@ -1,7 +1,11 @@
-// Float32 and float16 texels.
+// Float32 texels as they are; float16 texels as half_from_float() rounds them, the largest for what is not finite.
 #include "core/storage/format/floats.h"
 
 #include <algorithm>
+#include <limits>
+
+#include "core/math/half.h"
+#include "core/storage/format/format_entry.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/storage/format/floats.cpp"
@@ -138,6 +142,8 @@ HWY_EXPORT(EncodeHalves);
 HWY_EXPORT(DecodeHalves);
 HWY_EXPORT(LargestMagnitude);
 
+namespace {
+
 void encode_floats(std::size_t channels, const float* const* in, std::size_t count, std::byte* out) {
     HWY_DYNAMIC_DISPATCH(EncodeFloats)(channels, in, count, reinterpret_cast<float*>(out));
 }
@@ -150,6 +156,31 @@ void encode_halves(std::size_t channels, const float* const* in, std::size_t cou
 void decode_halves(std::size_t channels, const std::byte* bytes, std::size_t count, float* const* out) {
     HWY_DYNAMIC_DISPATCH(DecodeHalves)(channels, reinterpret_cast<const std::uint16_t*>(bytes), count, out);
 }
+
+constexpr double k_float_max = std::numeric_limits<float>::max();
+
+template <std::size_t channels>
+constexpr FormatEntry floats(std::string_view name, std::uint32_t vk_format) {
+    return {{name, channels, 1, 4 * channels, vk_format, -k_float_max, k_float_max},
+            encode_with<channels, encode_floats>,
+            decode_with<channels, decode_floats>};
+}
+template <std::size_t channels>
+constexpr FormatEntry halves(std::string_view name, std::uint32_t vk_format) {
+    return {{name, channels, 1, 2 * channels, vk_format, -k_largest_half, k_largest_half},
+            encode_with<channels, encode_halves>,
+            decode_with<channels, decode_halves>};
+}
+
+}  // namespace
+
+constinit const FormatEntry r32f = floats<1>("r32f", 100);
+constinit const FormatEntry rg32f = floats<2>("rg32f", 103);
+constinit const FormatEntry rgba32f = floats<4>("rgba32f", 109);
+constinit const FormatEntry r16f = halves<1>("r16f", 76);
+constinit const FormatEntry rg16f = halves<2>("rg16f", 83);
+constinit const FormatEntry rgba16f = halves<4>("rgba16f", 97);
+
 float largest_magnitude(const float* values, std::size_t count) {
     const std::size_t whole = count / k_lanes * k_lanes;
     float largest = whole > 0 ? HWY_DYNAMIC_DISPATCH(LargestMagnitude)(values, whole) : 0.0f;

@@ -2,6 +2,8 @@
 // either side of it.
 #include "core/storage/format/logluv.h"
 
+#include "core/storage/format/format_entry.h"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/storage/format/logluv.cpp"
 #include <hwy/foreach_target.h>  // NOLINT: must precede highway.h
@@ -78,12 +80,18 @@ namespace lobelia::texels {
 HWY_EXPORT(EncodeLogluv);
 HWY_EXPORT(DecodeLogluv);
 
+namespace {
+
 void encode_logluv(const float* const* in, std::size_t count, std::byte* out) {
     HWY_DYNAMIC_DISPATCH(EncodeLogluv)(in, count, reinterpret_cast<std::int32_t*>(out));
 }
 void decode_logluv(const std::byte* bytes, std::size_t count, float* const* out) {
     HWY_DYNAMIC_DISPATCH(DecodeLogluv)(reinterpret_cast<const std::int32_t*>(bytes), count, out);
 }
+
+}  // namespace
+
+constinit const FormatEntry logluv32 = {{"logluv32", 3, 1, 4, 37, 0, 0x1p60}, encode_logluv, decode_logluv};
 
 }  // namespace lobelia::texels
 #endif

@@ -42,7 +42,4 @@ inline constexpr float k_least_luminance = 0x1p-63f, k_largest_luminance = 0x1p6
     return {std::max(c.r, 0.0f), std::max(c.g, 0.0f), std::max(c.b, 0.0f)};
 }
 
-void encode_logluv(const float* const* in, std::size_t count, std::byte* out);
-void decode_logluv(const std::byte* bytes, std::size_t count, float* const* out);
-
 }  // namespace lobelia::texels

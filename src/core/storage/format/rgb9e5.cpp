@@ -1,6 +1,8 @@
 // RGB9E5, many texels at once.
 #include "core/storage/format/rgb9e5.h"
 
+#include "core/storage/format/format_entry.h"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/storage/format/rgb9e5.cpp"
 #include <hwy/foreach_target.h>  // NOLINT: must precede highway.h
@@ -39,12 +41,18 @@ namespace lobelia::texels {
 HWY_EXPORT(EncodeRgb9e5);
 HWY_EXPORT(DecodeRgb9e5);
 
+namespace {
+
 void encode_rgb9e5(const float* const* in, std::size_t count, std::byte* out) {
     HWY_DYNAMIC_DISPATCH(EncodeRgb9e5)(in, count, reinterpret_cast<std::int32_t*>(out));
 }
 void decode_rgb9e5(const std::byte* bytes, std::size_t count, float* const* out) {
     HWY_DYNAMIC_DISPATCH(DecodeRgb9e5)(reinterpret_cast<const std::uint32_t*>(bytes), count, out);
 }
+
+}  // namespace
+
+constinit const FormatEntry rgb9e5 = {{"rgb9e5", 3, 1, 4, 123, 0, k_largest_rgb9e5}, encode_rgb9e5, decode_rgb9e5};
 
 }  // namespace lobelia::texels
 #endif

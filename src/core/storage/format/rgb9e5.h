@@ -35,7 +35,4 @@ inline constexpr float k_largest_rgb9e5 = 65408;
             static_cast<float>(packed >> 18 & 511) * step};
 }
 
-void encode_rgb9e5(const float* const* in, std::size_t count, std::byte* out);
-void decode_rgb9e5(const std::byte* bytes, std::size_t count, float* const* out);
-
 }  // namespace lobelia::texels

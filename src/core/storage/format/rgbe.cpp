@@ -1,6 +1,8 @@
 // RGBE, many texels at once.
 #include "core/storage/format/rgbe.h"
 
+#include "core/storage/format/format_entry.h"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/storage/format/rgbe.cpp"
 #include <hwy/foreach_target.h>  // NOLINT: must precede highway.h
@@ -44,12 +46,18 @@ namespace lobelia::texels {
 HWY_EXPORT(EncodeRgbe);
 HWY_EXPORT(DecodeRgbe);
 
+namespace {
+
 void encode_rgbe(const float* const* in, std::size_t count, std::byte* out) {
     HWY_DYNAMIC_DISPATCH(EncodeRgbe)(in, count, reinterpret_cast<std::int32_t*>(out));
 }
 void decode_rgbe(const std::byte* bytes, std::size_t count, float* const* out) {
     HWY_DYNAMIC_DISPATCH(DecodeRgbe)(reinterpret_cast<const std::uint32_t*>(bytes), count, out);
 }
+
+}  // namespace
+
+constinit const FormatEntry rgbe8 = {{"rgbe8", 3, 1, 4, 37, 0, k_largest_rgbe}, encode_rgbe, decode_rgbe};
 
 }  // namespace lobelia::texels
 #endif

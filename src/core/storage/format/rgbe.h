@@ -40,7 +40,4 @@ inline constexpr float k_least_rgbe = 0x1p-100f;
             static_cast<float>(packed >> 16 & 255) * step};
 }
 
-void encode_rgbe(const float* const* in, std::size_t count, std::byte* out);
-void decode_rgbe(const std::byte* bytes, std::size_t count, float* const* out);
-
 }  // namespace lobelia::texels

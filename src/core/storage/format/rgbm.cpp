@@ -1,6 +1,8 @@
 // RGBM, many texels at once.
 #include "core/storage/format/rgbm.h"
 
+#include "core/storage/format/format_entry.h"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/storage/format/rgbm.cpp"
 #include <hwy/foreach_target.h>  // NOLINT: must precede highway.h
@@ -39,12 +41,19 @@ namespace lobelia::texels {
 HWY_EXPORT(EncodeRgbm);
 HWY_EXPORT(DecodeRgbm);
 
+namespace {
+
 void encode_rgbm(const float* const* in, std::size_t count, std::byte* out) {
     HWY_DYNAMIC_DISPATCH(EncodeRgbm)(in, count, reinterpret_cast<std::int32_t*>(out));
 }
 void decode_rgbm(const std::byte* bytes, std::size_t count, float* const* out) {
     HWY_DYNAMIC_DISPATCH(DecodeRgbm)(reinterpret_cast<const std::uint32_t*>(bytes), count, out);
 }
+
+}  // namespace
+
+constinit const FormatEntry rgbm8 = {
+    {"rgbm8", 3, 1, 4, 37, 0, 1}, encode_rgbm, decode_rgbm, nullptr, nullptr, Scaling::always};
 
 }  // namespace lobelia::texels
 #endif

@@ -27,7 +27,4 @@ namespace lobelia::texels {
             static_cast<float>(packed >> 16 & 255) * step};
 }
 
-void encode_rgbm(const float* const* in, std::size_t count, std::byte* out);
-void decode_rgbm(const std::byte* bytes, std::size_t count, float* const* out);
-
 }  // namespace lobelia::texels

@@ -1,5 +1,8 @@
-// Normalised 8- and 10-bit texels.
+// Normalised texels: a byte for each of one, two or four channels; three channels of 10 bits, the first lowest, the
+// upper two bits set.
 #include "core/storage/format/unorm.h"
+
+#include "core/storage/format/format_entry.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/storage/format/unorm.cpp"
@@ -91,6 +94,8 @@ HWY_EXPORT(DecodeUnorm8);
 HWY_EXPORT(EncodeUnorm10);
 HWY_EXPORT(DecodeUnorm10);
 
+namespace {
+
 void encode_unorm8(std::size_t channels, const float* const* in, std::size_t count, std::byte* out) {
     HWY_DYNAMIC_DISPATCH(EncodeUnorm8)(channels, in, count, reinterpret_cast<std::uint8_t*>(out));
 }
@@ -103,6 +108,20 @@ void encode_unorm10(const float* const* in, std::size_t count, std::byte* out) {
 void decode_unorm10(const std::byte* bytes, std::size_t count, float* const* out) {
     HWY_DYNAMIC_DISPATCH(DecodeUnorm10)(reinterpret_cast<const std::uint32_t*>(bytes), count, out);
 }
+
+template <std::size_t channels>
+constexpr FormatEntry unorm8(std::string_view name, std::uint32_t vk_format) {
+    return {{name, channels, 1, channels, vk_format, 0, 1},
+            encode_with<channels, encode_unorm8>,
+            decode_with<channels, decode_unorm8>};
+}
+
+}  // namespace
+
+constinit const FormatEntry r8 = unorm8<1>("r8", 9);
+constinit const FormatEntry rg8 = unorm8<2>("rg8", 16);
+constinit const FormatEntry rgba8 = unorm8<4>("rgba8", 37);
+constinit const FormatEntry rgb10a2 = {{"rgb10a2", 3, 1, 4, 64, 0, 1}, encode_unorm10, decode_unorm10};
 
 }  // namespace lobelia::texels
 #endif

@@ -17,12 +17,4 @@ namespace lobelia::texels {
     return static_cast<float>(stored) / static_cast<float>(steps);
 }
 
-/// A byte for each of one, two or four channels.
-void encode_unorm8(std::size_t channels, const float* const* in, std::size_t count, std::byte* out);
-void decode_unorm8(std::size_t channels, const std::byte* bytes, std::size_t count, float* const* out);
-
-/// Three channels of 10 bits, the first lowest; the upper two bits are set.
-void encode_unorm10(const float* const* in, std::size_t count, std::byte* out);
-void decode_unorm10(const std::byte* bytes, std::size_t count, float* const* out);
-
 }  // namespace lobelia::texels

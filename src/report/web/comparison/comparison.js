@@ -39,7 +39,7 @@ function build_header() {
     show_warnings(environment.warnings ?? []);
 }
 
-/// All settings but the recipe and what is null; a width and its height become one.
+/// Returns the settings without the recipe and null values; a width and its height become one fact.
 function setting_facts(settings) {
     const facts = [];
     for (const [key, value] of Object.entries(settings)) {
@@ -47,7 +47,7 @@ function setting_facts(settings) {
         const is_size = `${stem}_width` in settings && `${stem}_height` in settings;
         const text = is_size ? `${settings[`${stem}_width`]} × ${settings[`${stem}_height`]}` : setting_text(value);
         if (value !== null && key !== "recipe" && !(is_size && key.endsWith("_height")))
-            facts.push([(is_size ? `${stem.replace("judged", "measured")} at` : key).replaceAll("_", " "), text]);
+            facts.push([(is_size ? `${stem} at` : key).replaceAll("_", " "), text]);
     }
     return facts;
 }

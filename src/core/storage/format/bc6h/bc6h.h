@@ -5,8 +5,6 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "lobelia/pixel_format.h"
-
 namespace lobelia::bc6h {
 
 inline constexpr std::size_t k_texels = 16;
@@ -25,12 +23,5 @@ using Halves = std::array<std::array<std::uint16_t, 3>, k_texels>;
 /// those of the square roots of the values; no value is further off than its block's range in its widest channel.
 void encode_blocks(const float* const* channels, std::size_t stride, std::size_t blocks, Signedness sign,
                    std::byte* out);
-
-/// Images of width x height texels, three channels. Rows of blocks start at multiples of 4; the excess of a block
-/// repeats the last column and row.
-void encode_unsigned(std::size_t width, std::size_t height, ChannelPointers channels, std::byte* out);
-void encode_signed(std::size_t width, std::size_t height, ChannelPointers channels, std::byte* out);
-void decode_unsigned(std::size_t width, std::size_t height, const std::byte* bytes, MutableChannelPointers channels);
-void decode_signed(std::size_t width, std::size_t height, const std::byte* bytes, MutableChannelPointers channels);
 
 }  // namespace lobelia::bc6h

@@ -1,9 +1,11 @@
-// BC6H images: whole blocks from images of any size, and back.
+// BC6H images: whole blocks from images of any size, and back. Rows of blocks start at multiples of 4; the excess of a
+// block repeats the last column and row.
 #include <algorithm>
 #include <vector>
 
 #include "core/math/half.h"
 #include "core/storage/format/bc6h/bc6h.h"
+#include "core/storage/format/format_entry.h"
 
 namespace lobelia::bc6h {
 namespace {
@@ -48,19 +50,22 @@ void decode(Signedness sign, std::size_t width, std::size_t height, const std::b
         }
 }
 
+template <Signedness sign>
+constexpr FormatEntry entry(std::string_view name, std::uint32_t vk_format, double lowest) {
+    return {.info = {name, 3, 4, k_block_bytes, vk_format, lowest, k_largest_half},
+            .encode_image = [](std::size_t width, std::size_t height, ChannelPointers channels,
+                               std::byte* out) { encode(sign, width, height, channels, out); },
+            .decode_image = [](std::size_t width, std::size_t height, const std::byte* bytes,
+                               MutableChannelPointers channels) { decode(sign, width, height, bytes, channels); }};
+}
+
 }  // namespace
-
-void encode_unsigned(std::size_t width, std::size_t height, ChannelPointers channels, std::byte* out) {
-    encode(Signedness::unsigned_halves, width, height, channels, out);
-}
-void encode_signed(std::size_t width, std::size_t height, ChannelPointers channels, std::byte* out) {
-    encode(Signedness::signed_halves, width, height, channels, out);
-}
-void decode_unsigned(std::size_t width, std::size_t height, const std::byte* bytes, MutableChannelPointers channels) {
-    decode(Signedness::unsigned_halves, width, height, bytes, channels);
-}
-void decode_signed(std::size_t width, std::size_t height, const std::byte* bytes, MutableChannelPointers channels) {
-    decode(Signedness::signed_halves, width, height, bytes, channels);
-}
-
 }  // namespace lobelia::bc6h
+
+namespace lobelia::texels {
+
+constinit const FormatEntry bc6h_unsigned = bc6h::entry<bc6h::Signedness::unsigned_halves>("bc6h_unsigned", 143, 0);
+constinit const FormatEntry bc6h_signed =
+    bc6h::entry<bc6h::Signedness::signed_halves>("bc6h_signed", 144, -k_largest_half);
+
+}  // namespace lobelia::texels

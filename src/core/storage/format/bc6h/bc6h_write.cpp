@@ -2,7 +2,6 @@
 #include "core/storage/format/bc6h/bc6h_write.h"
 
 #include <algorithm>
-#include <cassert>
 #include <span>
 
 namespace lobelia::bc6h {
@@ -46,7 +45,7 @@ class BitWriter {
         place_ += count;
     }
     void store(std::byte* block) const {
-        assert(place_ == 128);
+        LOBELIA_ASSERT(place_ == 128);
         for (std::size_t i = 0; i < k_block_bytes; ++i) block[i] = static_cast<std::byte>(words_[i / 8] >> (i % 8 * 8));
     }
 
@@ -104,7 +103,7 @@ void write_block(const Quantised& q, std::size_t partition, const std::array<std
     if (mode.regions == 2) bits.put(static_cast<int>(partition), k_partition_bits);
     for (std::size_t i = 0; i < k_texels; ++i) {
         const bool is_anchor = i == 0 || (mode.regions == 2 && i == k_anchor[partition]);
-        assert(!is_anchor || indices[i] < 1 << (index_bits(mode) - 1));
+        LOBELIA_ASSERT(!is_anchor || indices[i] < 1 << (index_bits(mode) - 1));
         bits.put(indices[i], index_bits(mode) - (is_anchor ? 1 : 0));
     }
     bits.store(block);

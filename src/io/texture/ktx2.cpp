@@ -1,8 +1,6 @@
 // KTX 2.0 files, after "KTX File Format Specification, Version 2.0" (Khronos 2021) and "Khronos Data Format
 // Specification, version 1.3" (2019), chapter 5.
-#include "io/write_ktx2.h"
-
-#include <fmt/format.h>
+#include "io/texture/ktx2.h"
 
 #include <array>
 #include <bit>
@@ -10,8 +8,6 @@
 #include <cstdint>
 #include <numeric>
 #include <vector>
-
-#include "io/image_checks.h"
 
 namespace lobelia {
 namespace {
@@ -89,7 +85,7 @@ FormatFacts bc6h(std::uint32_t qualifiers) {
     return {k_model_bc6h, 1, {{0, 128, k_float | qualifiers, qualifiers == k_signed ? k_minus_one : 0, k_one}}};
 }
 
-/// By VkFormat: pixel formats without one of their own, which are stored as R8G8B8A8_UNORM, need nothing here.
+/// Returns the facts of a VkFormat. Pixel formats without their own, stored as R8G8B8A8_UNORM, need no entry.
 FormatFacts facts_of(std::uint32_t vk_format) {
     switch (vk_format) {
         case 100:
@@ -157,7 +153,7 @@ Bytes key_values(std::map<std::string, std::string> metadata) {
 }
 
 /// Everything before the texels, which begin at a multiple of the block size and of 4.
-Bytes beginning(const Ktx2Texture& texture) {
+Bytes beginning(const TextureFile& texture) {
     constexpr std::size_t k_header = 80, k_level = 24;
     const FormatInfo& format = info(texture.format);
     const FormatFacts facts = facts_of(info(texture.format).vk_format);
@@ -182,12 +178,7 @@ Bytes beginning(const Ktx2Texture& texture) {
 
 }  // namespace
 
-Status write_ktx2(StagedFile& file, const Ktx2Texture& texture) {
-    const auto [width, height] = std::array{texture.width, texture.height};
-    constexpr auto k_most_side = static_cast<std::size_t>(io::k_most_side);
-    if (width == 0 || height == 0 || width > k_most_side || height > k_most_side)
-        return Error{fmt::format("a texture of {} x {} texels cannot be written", width, height)};
-    assert(texture.data.size() == byte_size(texture.format, width, height));
+Status write_ktx2(StagedFile& file, const TextureFile& texture) {
     if (auto status = file.write(beginning(texture).data()); !status) return status;
     return file.write(texture.data);
 }
