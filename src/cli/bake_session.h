@@ -11,8 +11,8 @@ namespace lobelia::cli {
 /// verb reads there is still true when it writes; an error if another process holds it.
 [[nodiscard]] Result<BakeSession> session_in(const std::string& out);
 
-/// Loads the scene for a session that `stop` ends, with the reader's warnings. After Ctrl-C, unlocks the folder and ends
-/// the program as the signal would.
+/// Loads the scene for a session that `stop` ends, with the reader's warnings. After Ctrl-C, unlocks the folder and
+/// ends the program as the signal would.
 [[nodiscard]] Result<LoadedScene> load_scene_in(BakeSession& session, const SceneSource& source,
                                                 const StopOnInterrupt& stop);
 

@@ -65,7 +65,7 @@ Result<InputFile> InputFile::open_below(const std::filesystem::path& folder, con
         if (!next.is_open()) return read_failure(name, errno);
         at = std::move(next);
     }
-    return open_at(at.get(), relative.filename(), name, within_folder(most_bytes));
+    return open_at(at.get(), relative.filename(), name, {most_bytes, InputOptions::Links::refused});
 }
 
 Result<InputFile> InputFile::open_at(int at, const std::filesystem::path& path, std::string name,

@@ -63,10 +63,4 @@ class InputFile {
 [[nodiscard]] Result<std::string> read_text(const std::filesystem::path& path, std::size_t most_mebibytes = 64);
 [[nodiscard]] Result<std::string> read_text(const InputFile& file);
 
-/// Options for the files of a bake's folder and the like, whose names are fixed or checked to be names: such a file
-/// must not be a symbolic link.
-[[nodiscard]] inline InputOptions within_folder(std::uint64_t most_bytes = std::numeric_limits<std::uint64_t>::max()) {
-    return {most_bytes, InputOptions::Links::refused};
-}
-
 }  // namespace lobelia

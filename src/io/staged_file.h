@@ -18,10 +18,10 @@ namespace lobelia {
 /// no such folder, no permission, full.
 class StagedFile {
   public:
-    /// Starts an empty file for `path`; permissions of the file that it will replace are kept. A symbolic link is replaced
-    /// itself, not the file that it leads to: whoever can put a link into a folder must not choose what is overwritten.
-    /// (The system's own links, /dev/stdout, are followed.) An error if `path` is a folder, pipe or device. Once `stop`
-    /// is set, writing is an error.
+    /// Starts an empty file for `path`; permissions of the file that it will replace are kept. A symbolic link is
+    /// replaced itself, not the file that it leads to: whoever can put a link into a folder must not choose what is
+    /// overwritten. (The system's own links, /dev/stdout, are followed.) An error if `path` is a folder, pipe or
+    /// device. Once `stop` is set, writing is an error.
     [[nodiscard]] static Result<StagedFile> create(const std::filesystem::path& path, StopFlag stop = {});
     StagedFile(StagedFile&& other) noexcept;
     StagedFile& operator=(StagedFile&&) = delete;

@@ -17,7 +17,8 @@ namespace lobelia {
 /// here are left behind; once they are, readers see all of them (CommittedFolder), whenever the process is killed.
 class FilesTogether {
   public:
-    /// Makes the folder if it is missing, and locks it (lock_folder). Once `stop` becomes true, adding files is an error.
+    /// Makes the folder if it is missing, and locks it (lock_folder). Once `stop` becomes true, adding files is an
+    /// error.
     [[nodiscard]] static Result<FilesTogether> in(const std::filesystem::path& folder, StopFlag stop = {});
     explicit FilesTogether(std::shared_ptr<const FolderLock> lock, StopFlag stop = {})
         : lock_(std::move(lock)), stop_(stop) {}

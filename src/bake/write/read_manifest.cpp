@@ -210,10 +210,9 @@ Result<ManifestText> read_manifest_text(const std::filesystem::path& path) {
     const std::string name = is_folder ? k_manifest_name : path.filename().string();
     const auto folder = CommittedFolder::open(bake_folder(path));
     if (!folder) return folder.error();
-    const auto file =
-        InputFile::open(folder->path(name), {.most_bytes = std::uint64_t{1} << 30,
-                                             .links = is_folder ? InputOptions::Links::refused
-                                                                : InputOptions::Links::followed});
+    const auto file = InputFile::open(
+        folder->path(name), {.most_bytes = std::uint64_t{1} << 30,
+                             .links = is_folder ? InputOptions::Links::refused : InputOptions::Links::followed});
     if (!file) return file.error();
     auto text = read_text(*file);
     return text ? Result<ManifestText>({*std::move(text), (bake_folder(path) / name).string()}) : text.error();
