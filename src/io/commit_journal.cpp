@@ -24,7 +24,8 @@ using nlohmann::ordered_json;
 
 constexpr const char* k_journal_name = ".lobelia.commit";
 constexpr std::uint64_t k_version = 1;
-constexpr std::size_t k_most_files = std::size_t{1} << 20, k_most_mebibytes = 256;
+constexpr std::size_t k_most_files = std::size_t{1} << 20;
+constexpr std::uint64_t k_most_bytes = std::uint64_t{256} << 20;
 
 fs::path journal_file(const fs::path& folder) { return folder / k_journal_name; }
 
@@ -51,7 +52,9 @@ std::string name_inside(const JsonPlace& place) {
 }
 
 Result<CommitJournal> read_journal(const fs::path& path) {
-    const auto text = read_text(path, k_most_mebibytes);
+    const auto file = InputFile::open(path, {.most_bytes = k_most_bytes, .links = InputOptions::Links::refused});
+    if (!file) return file.error();
+    const auto text = read_text(*file);
     if (!text) return text.error();
     auto journal = read_json(*text, path.string(), [](const JsonPlace& top) {
         CommitJournal read;

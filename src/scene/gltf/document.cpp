@@ -215,6 +215,7 @@ Document open_document(Bytes bytes, const std::string& name, const ResourceReade
                        const GltfReadOptions& options) {
     const Container container = split(bytes, name);
     const auto json = JsonDocument::parse(container.json, name, {.stop = options.stop});
+    if (!json) StopFlag(options.stop).check();
     if (!json) throw JsonRefusal(json.error().message);
     Document document(*json, Resources(resources, options.most_bytes), options);
     document.file_bytes = bytes.size();
