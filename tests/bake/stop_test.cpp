@@ -11,6 +11,7 @@
 #include "bake/preflight/preflight.h"
 #include "bake/session/setup.h"
 #include "folders.h"
+#include "lobelia/bake.h"
 #include "lobelia/storage.h"
 #include "scene/embedded.h"
 
