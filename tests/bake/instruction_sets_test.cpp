@@ -30,7 +30,7 @@ TEST(InstructionSets, TheWarningNamesThemAndTheWayOut) {
 
 BakeJob small_job() {
     BakeJob job;
-    job.bake.atlas.width = job.bake.atlas.height = 32;
+    job.bake.atlas.width = job.bake.atlas.height = 64;  // several tiles
     job.bake.samples = 16;
     job.bake.paths.bounces = 1;
     job.finish = {Switch::off, Switch::off, Switch::off};

@@ -11,12 +11,13 @@
 namespace lobelia {
 namespace {
 
-constexpr float k_albedo = 0.5f, k_emission = 0.75f;
+constexpr float k_room_albedo = 0.5f, k_room_emission = 0.75f;
 
 /// A closed room of 2 x 2 x 2 m whose walls all emit.
 Scene glowing_room() {
     Scene scene;
-    scene.materials.push_back(test::matte({k_albedo, k_albedo, k_albedo}, {k_emission, k_emission, k_emission}));
+    scene.materials.push_back(test::matte({k_room_albedo, k_room_albedo, k_room_albedo},
+                                          {k_room_emission, k_room_emission, k_room_emission}));
     Mesh room;
     test::add_box(room, 0, {-1, -1, -1}, {1, 1, 1}, test::Facing::inwards);
     test::add_object(scene, std::move(room));
@@ -60,7 +61,7 @@ TEST(Probes, WhiteFurnace) {
     options.codec = "sh1/moments/convolution";
     const ProbeSet probes = probes_of(glowing_room(), options);
     ASSERT_EQ(probes.size(), 8u);
-    const double radiance = static_cast<double>(k_emission) / (1 - static_cast<double>(k_albedo));
+    const double radiance = static_cast<double>(k_room_emission) / (1 - static_cast<double>(k_room_albedo));
     for (std::size_t i = 0; i < probes.size(); ++i) {
         // The light is the same from all directions; Russian roulette is the only noise.
         const double found = static_cast<double>(probes.coefficients[4 * i].g) / std::sqrt(4 * k_pi);

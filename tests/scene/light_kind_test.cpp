@@ -15,6 +15,10 @@ namespace {
 
 Scene scene_with(const PunctualLight& light) {
     Scene scene;
+    scene.materials.emplace_back();
+    Mesh mesh;
+    test::add_square(mesh, 0, {}, {0, 0, 1}, {1, 0, 0}, 1);
+    test::add_object(scene, std::move(mesh));
     scene.lights = {light};
     return scene;
 }
