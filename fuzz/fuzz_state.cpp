@@ -68,7 +68,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     static const MemoryFolder folder;
     const auto input = static_cast<StateInput>(data[0] % 3);
     const auto bytes = bytes_of(data, size).subspan(1);
-    const std::filesystem::path file = region_file("part", 0), merged = folder.path() / "merged";
+    const std::filesystem::path file = region_file(checkpoint_folder("part"), 0);
+    const std::filesystem::path parts[] = {folder.path() / "part"};
+    std::filesystem::create_directories(checkpoint_folder(parts[0]));
     if (input == StateInput::whole_file)
         folder.write(file, bytes);
     else if (bytes.size() >= sizeof(RegionHeader))
@@ -76,10 +78,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     else
         return 0;
     check_result(RegionStates::read(folder.path() / file));
-    const std::filesystem::path parts[] = {folder.path() / "part"};
-    if (const Status status = merge_shards(setup(), parts, merged); !status) require(!status.error().message.empty());
-    resume(parts[0]);
+    {
+        auto merged = FilesTogether::in(folder.path() / "merged");
+        require(static_cast<bool>(merged));
+        const Status status = merge_shards(setup(), parts, *merged);
+        if (!status) require(!status.error().message.empty());
+    }
+    resume(checkpoint_folder(parts[0]));
     folder.clear();
-    std::filesystem::create_directories(parts[0]);
     return 0;
 }
