@@ -149,7 +149,7 @@ bool write_api_seeds(const std::filesystem::path& folder) {
     std::vector<float> tame(64);
     for (std::size_t i = 0; i < tame.size(); ++i) tame[i] = 0.1f + 0.01f * static_cast<float>(i);
     for (unsigned char what = 0; what < 6; ++what)
-        for (const unsigned char which : {0, 7, 14, 21, 28, 35, 255})
+        for (const int which : {0, 7, 14, 21, 28, 35, 255})
             for (const std::span<const float> numbers : {std::span<const float>(tame), {test::k_hostile_numbers}}) {
                 std::string bytes = {static_cast<char>(what), static_cast<char>(which), static_cast<char>(which / 3)};
                 bytes.append(reinterpret_cast<const char*>(numbers.data()), numbers.size_bytes());

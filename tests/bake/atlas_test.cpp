@@ -15,7 +15,7 @@ using test::flat_triangles;
 using test::parallelogram;
 using test::scene_of;
 using test::with_uv;
-using Layout = AtlasOptions::Layout;
+using ObjectLayout = AtlasOptions::Layout;
 
 Atlas atlas_of(const World& world, const AtlasOptions& options = {}) {
     Result<Atlas> atlas = Atlas::make(world, options);
@@ -145,7 +145,7 @@ TEST(TexelMap, SurvivesUVsWithoutAreaAndFarOutside) {
                                                              {Vec2{-far, -far}, {far, -far}, {0, far}},
                                                              {Vec2{far, far}, {far, far}, {far, -far}},
                                                              {Vec2{7, 7}, {8, 7}, {7, 8}}})}));
-    for (const Layout layout : {Layout::shared, Layout::packed, Layout::automatic}) {
+    for (const ObjectLayout layout : {ObjectLayout::shared, ObjectLayout::packed, ObjectLayout::automatic}) {
         const Atlas atlas = atlas_of(world, {.width = 64, .height = 64, .layout = layout});
         for (const std::uint32_t t : map_texels(atlas).triangle) EXPECT_EQ(t, 2u);
     }
@@ -182,11 +182,11 @@ TEST(Layouts, AreSharedUnlessObjectsOverlap) {
     // Side by side, objects share at most a border; objects that overlap cannot share the UV square.
     const World apart = make_world(scene_of({with_uv(square, 0.5f, {0, 0}), with_uv(square, 0.5f, {0.5f, 0})}));
     const World same = make_world(scene_of({square, square}));
-    EXPECT_EQ(atlas_of(apart).layout(), Layout::shared);
-    EXPECT_EQ(atlas_of(same).layout(), Layout::packed);
-    EXPECT_EQ(atlas_of(apart, {.layout = Layout::packed}).layout(), Layout::packed);
-    EXPECT_EQ(atlas_of(apart, {.texels_per_metre = 10}).layout(), Layout::packed);
-    EXPECT_EQ(atlas_of(same, {.layout = Layout::shared}).layout(), Layout::shared);
+    EXPECT_EQ(atlas_of(apart).layout(), ObjectLayout::shared);
+    EXPECT_EQ(atlas_of(same).layout(), ObjectLayout::packed);
+    EXPECT_EQ(atlas_of(apart, {.layout = ObjectLayout::packed}).layout(), ObjectLayout::packed);
+    EXPECT_EQ(atlas_of(apart, {.texels_per_metre = 10}).layout(), ObjectLayout::packed);
+    EXPECT_EQ(atlas_of(same, {.layout = ObjectLayout::shared}).layout(), ObjectLayout::shared);
 }
 
 TEST(Layouts, SizeObjectsByArea) {
@@ -214,7 +214,7 @@ TEST(Layouts, KeepPackedObjectsApart) {
     for (const std::optional<double> density : {std::optional<double>{}, std::optional<double>{20}}) {
         const AtlasOptions options{.width = 100, .height = 80, .texels_per_metre = density, .padding = 3};
         const Atlas atlas = atlas_of(world, options);
-        EXPECT_EQ(atlas.layout(), Layout::packed);
+        EXPECT_EQ(atlas.layout(), ObjectLayout::packed);
         EXPECT_EQ(atlas.pages() == 1, !density);
         const auto& p = atlas.placements();
         for (std::size_t i = 0; i < p.size(); ++i) {
@@ -262,7 +262,7 @@ TEST(Layouts, NameWhatDoesNotFit) {
     EXPECT_NE(message(world, {.width = 1u << 20}), "");
     EXPECT_NE(message(world, {.texels_per_metre = -1}), "");
     EXPECT_NE(message(world, {.texels_per_metre = NAN}), "");
-    EXPECT_NE(message(world, {.texels_per_metre = 9, .layout = Layout::shared}), "");
+    EXPECT_NE(message(world, {.texels_per_metre = 9, .layout = ObjectLayout::shared}), "");
     EXPECT_FALSE(atlas_of(world).placements()[0].baked);
     EXPECT_TRUE(atlas_of(world).placements()[1].baked);
 }

@@ -35,7 +35,7 @@ class Folder {
     fs::path path_;
 };
 
-const Scene& closed_box() {
+const Scene& grey_room() {
     static const Scene scene = cornell_scene({.closed = true});
     return scene;
 }
@@ -86,31 +86,31 @@ void expect_same_bits(const Bake& first, const Bake& second) {
 
 TEST(Bake, IsTheSameAtAnyNumberOfThreads) {
     BakeJob job = small_job();
-    const Bake two = baked(closed_box(), job);
+    const Bake two = baked(grey_room(), job);
     job.bake.threads = 1;
-    expect_same_bits(two, baked(closed_box(), job));
+    expect_same_bits(two, baked(grey_room(), job));
 }
 
 TEST(Bake, IsTheSameInRegionsThatFitTheMemory) {
     BakeJob job = small_job();
-    const Bake whole = baked(closed_box(), job);
+    const Bake whole = baked(grey_room(), job);
     // The least memory that is enough makes the most regions.
     std::size_t too_little = 0, enough = std::size_t{1} << 30;
     while (enough - too_little > 1024) {
         job.bake.memory = (too_little + enough) / 2;
-        (BakeSetup::make(closed_box(), job.bake) ? enough : too_little) = job.bake.memory;
+        (BakeSetup::make(grey_room(), job.bake) ? enough : too_little) = job.bake.memory;
     }
     job.bake.memory = enough;
-    const auto setup = BakeSetup::make(closed_box(), job.bake);
+    const auto setup = BakeSetup::make(grey_room(), job.bake);
     ASSERT_TRUE(setup);
     ASSERT_GE((*setup)->plan.regions.size(), 3u);
-    expect_same_bits(whole, baked(closed_box(), job));
+    expect_same_bits(whole, baked(grey_room(), job));
 }
 
 TEST(Bake, ResumeEqualsUninterrupted) {
     const Folder folder;
     const BakeJob job = small_job();
-    const Bake whole = baked(closed_box(), job);
+    const Bake whole = baked(grey_room(), job);
     // Stop in the middle of a pass, again and again.
     for (int stops = 0; stops < 3; ++stops) {
         std::atomic<bool> stop = false;
@@ -119,21 +119,21 @@ TEST(Bake, ResumeEqualsUninterrupted) {
         session.progress = [&](const BakeProgress& progress) {
             if (progress.done > 0.3 * (stops + 1) - 0.05) stop = true;
         };
-        EXPECT_FALSE(bake(closed_box(), job, session));
+        EXPECT_FALSE(bake(grey_room(), job, session));
     }
-    expect_same_bits(whole, baked(closed_box(), job, session_in(folder / "a", Start::resume)));
+    expect_same_bits(whole, baked(grey_room(), job, session_in(folder / "a", Start::resume)));
     // Resuming a finished bake does nothing.
-    expect_same_bits(whole, baked(closed_box(), job, session_in(folder / "a", Start::resume)));
+    expect_same_bits(whole, baked(grey_room(), job, session_in(folder / "a", Start::resume)));
 }
 
 TEST(Bake, MoreSamplesEqualAsManyFromTheStart) {
     const Folder folder;
     BakeJob job = small_job();
-    const Bake whole = baked(closed_box(), job);
+    const Bake whole = baked(grey_room(), job);
     job.bake.samples = 16;
-    (void)baked(closed_box(), job, session_in(folder / "a"));
+    (void)baked(grey_room(), job, session_in(folder / "a"));
     job.bake.samples = 64;
-    expect_same_bits(whole, baked(closed_box(), job, session_in(folder / "a", Start::resume)));
+    expect_same_bits(whole, baked(grey_room(), job, session_in(folder / "a", Start::resume)));
 }
 
 TEST(Bake, KeepsItsJobAndItsFolder) {
@@ -143,7 +143,7 @@ TEST(Bake, KeepsItsJobAndItsFolder) {
     job.scene.environment = "sky";
     job.probes.emplace().spacing = 0.5;
     job.probes->box = {Vec3{0.25f, 0.5f, -0.5f}, Vec3{0.5f, 0.75f, 0}};
-    const Bake whole = baked(closed_box(), job, session_in(folder / "a"));
+    const Bake whole = baked(grey_room(), job, session_in(folder / "a"));
     const auto read = read_job(folder / "a");
     ASSERT_TRUE(read) << read.error().message;
     EXPECT_EQ(read->scene.path, "a scene");
@@ -166,21 +166,21 @@ Bake sharded(BakeJob job, Shard::By by, std::uint32_t count) {
     for (std::uint32_t i = 0; i < count; ++i) {
         job.bake.shard = {by, i, count};
         parts.push_back(folder / std::to_string(i));
-        EXPECT_TRUE(baked(closed_box(), job, session_in(parts.back())).pages.empty());
+        EXPECT_TRUE(baked(grey_room(), job, session_in(parts.back())).pages.empty());
     }
     job.bake.shard = {};
     BakeSession session = session_in(folder / "whole");
-    auto merged = merge_bake(closed_box(), job, parts, session);
+    auto merged = merge_bake(grey_room(), job, parts, session);
     EXPECT_TRUE(merged) << merged.error().message;
     return merged ? *std::move(merged) : Bake();
 }
 
 TEST(Bake, ShardsOfTilesEqualTheWhole) {
-    expect_same_bits(baked(closed_box(), small_job()), sharded(small_job(), Shard::By::tiles, 4));
+    expect_same_bits(baked(grey_room(), small_job()), sharded(small_job(), Shard::By::tiles, 4));
 }
 
 TEST(Bake, ShardsOfSamplesEqualTheWholeToRounding) {
-    const auto whole = baked(closed_box(), small_job()).pages,
+    const auto whole = baked(grey_room(), small_job()).pages,
                merged = sharded(small_job(), Shard::By::samples, 4).pages;
     ASSERT_EQ(whole.size(), merged.size());
     for (std::size_t p = 0; p < whole.size(); ++p)
@@ -202,14 +202,14 @@ TEST(Bake, ShardsThatDoNotMakeAWholeAreRefused) {
     for (std::uint32_t i = 0; i < 2; ++i) {
         job.bake.shard = {Shard::By::tiles, i, 2};
         parts.push_back(folder / std::to_string(i));
-        (void)baked(closed_box(), job, session_in(parts.back()));
+        (void)baked(grey_room(), job, session_in(parts.back()));
     }
     job.bake.shard = {};
     const fs::path whole = folder / "whole";
     const std::vector<fs::path> missing = {parts[0]}, twice = {parts[0], parts[1], parts[1]}, empty = {folder / "none"};
     const auto merges = [&](std::span<const fs::path> shards) {
         BakeSession session = session_in(whole);
-        return static_cast<bool>(merge_bake(closed_box(), job, shards, session));
+        return static_cast<bool>(merge_bake(grey_room(), job, shards, session));
     };
     EXPECT_FALSE(merges(missing));
     EXPECT_FALSE(merges(twice));
@@ -221,7 +221,7 @@ TEST(Bake, ShardsThatDoNotMakeAWholeAreRefused) {
 }
 
 TEST(Bake, OneObjectIsOneByItsNameAndHasUVs) {
-    Scene scene = closed_box();
+    Scene scene = grey_room();
     BakeJob job = small_job();
     job.bake.samples = 16;
     const auto error_for = [&](const std::string& name) {
@@ -241,7 +241,7 @@ TEST(Bake, OneObjectIsOneByItsNameAndHasUVs) {
 
 TEST(Bake, AnObjectBakedAgainInTheSameSceneIsTheSame) {
     const BakeJob job = small_job();
-    const Bake whole = baked(closed_box(), job);
+    const Bake whole = baked(grey_room(), job);
     Bake damaged = whole;
     const std::vector<std::uint32_t>& object_of_chart = whole.preflight->object_of_chart;
     constexpr std::uint32_t k_object = 1;
@@ -250,7 +250,7 @@ TEST(Bake, AnObjectBakedAgainInTheSameSceneIsTheSame) {
             if (page.chart[i] != 0 && object_of_chart[page.chart[i] - 1] == k_object)
                 for (auto& plane : page.planes) plane[i] = -1;
     BakeSession session;
-    const auto again = rebake_object(closed_box(), job, "#1", damaged, session);
+    const auto again = rebake_object(grey_room(), job, "#1", damaged, session);
     ASSERT_TRUE(again) << again.error().message;
     expect_same_bits(whole, *again);
 }
@@ -260,17 +260,17 @@ TEST(Bake, RefusesCheckpointsThatAreNotItsOwn) {
     BakeJob job = small_job();
     job.bake.samples = 16;
     const fs::path out = folder / "a";
-    (void)baked(closed_box(), job, session_in(out));
+    (void)baked(grey_room(), job, session_in(out));
     const fs::path file = region_file(checkpoint_folder(out), 0);
     const auto run = [&](const Scene& scene, const BakeJob& with, Start start) {
         return error_of(scene, with, session_in(out, start));
     };
     // Refuse a checkpoint if not asked to resume, of another scene, and with other options.
-    EXPECT_NE(run(closed_box(), job, Start::fresh).find("--resume"), std::string::npos);
+    EXPECT_NE(run(grey_room(), job, Start::fresh).find("--resume"), std::string::npos);
     EXPECT_NE(run(cornell_scene(), job, Start::resume).find("another scene"), std::string::npos);
     BakeJob other = job;
     other.bake.paths.bounces = 2;
-    EXPECT_NE(run(closed_box(), other, Start::resume).find("other options"), std::string::npos);
+    EXPECT_NE(run(grey_room(), other, Start::resume).find("other options"), std::string::npos);
 
     // Truncated anywhere, or with any byte changed.
     std::string bytes;
@@ -282,16 +282,16 @@ TEST(Bake, RefusesCheckpointsThatAreNotItsOwn) {
     for (const std::size_t size :
          {std::size_t{0}, std::size_t{7}, std::size_t{100}, std::size_t{256}, bytes.size() - 1}) {
         write(bytes.substr(0, size));
-        EXPECT_NE(run(closed_box(), job, Start::resume).find("region-0000.state"), std::string::npos) << size;
+        EXPECT_NE(run(grey_room(), job, Start::resume).find("region-0000.state"), std::string::npos) << size;
     }
     for (const std::size_t place : {0u, 9u, 17u, 33u, 49u, 300u, 5000u}) {
         std::string damaged = bytes;
         damaged[place] = static_cast<char>(damaged[place] ^ 0x10);
         write(damaged);
-        EXPECT_NE(run(closed_box(), job, Start::resume), "") << place;
+        EXPECT_NE(run(grey_room(), job, Start::resume), "") << place;
     }
     write(bytes);
-    EXPECT_EQ(run(closed_box(), job, Start::resume), "");
+    EXPECT_EQ(run(grey_room(), job, Start::resume), "");
 }
 
 /// The closed box with every surface of the same reflectance and emission.
@@ -332,9 +332,9 @@ TEST(Bake, WhiteFurnaceAtEveryTexel) {
 TEST(Bake, AdaptiveStopsWhereTheErrorIsReached) {
     BakeJob job = small_job();
     job.bake.samples = 512;
-    const BakeStatistics all = baked(closed_box(), job).manifest.statistics;
+    const BakeStatistics all = baked(grey_room(), job).manifest.statistics;
     job.bake.target_error = 0.05;
-    const BakeStatistics some = baked(closed_box(), job).manifest.statistics;
+    const BakeStatistics some = baked(grey_room(), job).manifest.statistics;
     EXPECT_LT(some.rays, all.rays);
     EXPECT_LT(some.mean_error, 0.06);
 }
@@ -344,7 +344,7 @@ TEST(Bake, StateKeepsToItsSize) {
     for (const char* codec : {"sh1/moments/convolution", "sg12h/moments/exact", "sg12h/matrix-gain/exact"}) {
         BakeJob job = small_job();
         job.bake.codec = codec;
-        const auto setup = BakeSetup::make(closed_box(), job.bake);
+        const auto setup = BakeSetup::make(grey_room(), job.bake);
         ASSERT_TRUE(setup);
         const std::size_t floats = 3 * (*setup)->encoding.codec()->basis().size();
         EXPECT_LE(static_cast<double>((*setup)->layout.bytes()), 1.25 * 4 * static_cast<double>(floats) + 16) << codec;

@@ -28,7 +28,7 @@ TEST(InstructionSets, TheWarningNamesThemAndTheWayOut) {
     EXPECT_NE(warning.find("LOBELIA_SIMD"), std::string::npos);
 }
 
-BakeJob small_job() {
+BakeJob one_pass_job() {
     BakeJob job;
     job.bake.atlas.width = job.bake.atlas.height = 64;  // several tiles
     job.bake.samples = 16;
@@ -62,7 +62,7 @@ TEST(InstructionSets, ABakeResumedWithAnotherWarns) {
     const std::string fastest = simd_targets().front(), plainest = simd_targets().back();
     const test::TestFolder folder("instruction-sets");
     using Start = BakeSession::Start;
-    BakeJob job = small_job();
+    BakeJob job = one_pass_job();
     EXPECT_FALSE(has_warning(warnings_of(job, folder.path() / "bake", Start::fresh, fastest)));
     EXPECT_FALSE(has_warning(warnings_of(job, folder.path() / "bake", Start::resume, fastest)));
     job.bake.samples = 32;
@@ -79,7 +79,7 @@ TEST(InstructionSets, ShardsOfSeveralWarnWhenTheyAreMerged) {
     const auto merged = [&](const std::string& name, const std::string& second) {
         std::vector<std::filesystem::path> shards;
         for (std::uint32_t i = 0; i < 2; ++i) {
-            BakeJob job = small_job();
+            BakeJob job = one_pass_job();
             job.bake.shard = {Shard::By::tiles, i, 2};
             shards.push_back(folder.path() / (name + std::to_string(i)));
             static_cast<void>(
@@ -87,7 +87,7 @@ TEST(InstructionSets, ShardsOfSeveralWarnWhenTheyAreMerged) {
         }
         BakeSession session;
         session.folder = folder.path() / name;
-        const auto result = merge_bake(scene, small_job(), shards, session);
+        const auto result = merge_bake(scene, one_pass_job(), shards, session);
         EXPECT_TRUE(result) << (result ? "" : result.error().message);
         return has_warning(result->manifest.warnings);
     };

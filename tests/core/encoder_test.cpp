@@ -13,18 +13,18 @@
 namespace lobelia {
 namespace {
 
-using BasisPtr = std::shared_ptr<const LinearBasis>;
+using LinearBasisPtr = std::shared_ptr<const LinearBasis>;
 using EncoderPtr = std::shared_ptr<const Encoder>;
 
-BasisPtr linear_basis(const char* name) { return as_linear(make_basis(name).value()); }
+LinearBasisPtr linear_basis(const char* name) { return as_linear(make_basis(name).value()); }
 
-std::vector<Rgb> encode(const EncoderPtr& encoder, SampleView samples) {
+std::vector<Rgb> encode_with(const EncoderPtr& encoder, SampleView samples) {
     Accumulator accumulator(encoder);
     accumulator.add(samples);
     return accumulator.solve();
 }
-std::vector<Rgb> encode(const char* encoder, const BasisPtr& basis, SampleView samples) {
-    return encode(make_encoder(encoder, basis).value(), samples);
+std::vector<Rgb> encode_with(const char* encoder, const LinearBasisPtr& basis, SampleView samples) {
+    return encode_with(make_encoder(encoder, basis).value(), samples);
 }
 
 /// A bright and a dim patch over a gradient: no basis here represents it exactly.
@@ -39,10 +39,11 @@ Samples smooth(Domain domain, std::size_t count) { return test::samples_of(domai
 TEST(LeastSquares, SampledGramEqualsQrOfTheDesignMatrix) {
     const Image sky = test::small_sky();
     for (const char* name : {"sg12", "sg12h", "sg5h", "sg24", "sh1", "sh2", "sh4", "sh8"}) {
-        const BasisPtr basis = linear_basis(name);
+        const LinearBasisPtr basis = linear_basis(name);
         for (const Samples& samples : {texel_samples(sky, basis->domain()), smooth(basis->domain(), 5000)}) {
             const auto expected = least_squares_by_qr(*basis, samples);
-            EXPECT_LE(test::distance(encode("least-squares", basis, samples), expected), 1e-4 * test::norm(expected))
+            EXPECT_LE(test::distance(encode_with("least-squares", basis, samples), expected),
+                      1e-4 * test::norm(expected))
                 << name;
         }
     }
@@ -50,15 +51,15 @@ TEST(LeastSquares, SampledGramEqualsQrOfTheDesignMatrix) {
 
 TEST(LeastSquares, SampledGramEqualsQrOnEnnis) {
     SKIP_WITHOUT_ENNIS();
-    const BasisPtr basis = linear_basis("sg12");
+    const LinearBasisPtr basis = linear_basis("sg12");
     const Samples samples = texel_samples(test::ennis());
     const auto expected = least_squares_by_qr(*basis, samples);
-    EXPECT_LE(test::distance(encode("least-squares", basis, samples), expected), 1e-4 * test::norm(expected));
+    EXPECT_LE(test::distance(encode_with("least-squares", basis, samples), expected), 1e-4 * test::norm(expected));
 }
 
 TEST(LeastSquares, RecoversWhatIsInTheSpan) {
     for (const char* name : {"sg12", "sg12h", "sh3"}) {
-        const BasisPtr basis = linear_basis(name);
+        const LinearBasisPtr basis = linear_basis(name);
         std::vector<Rgb> truth(basis->size());
         for (std::size_t i = 0; i < truth.size(); ++i) truth[i] = {1 + static_cast<float>(i), 0.5f, -2};
         const Directions directions = test::random_directions(basis->domain(), 2000, 3);
@@ -70,19 +71,19 @@ TEST(LeastSquares, RecoversWhatIsInTheSpan) {
         for (const char* encoder : {"least-squares", "matrix-gain", "regularised"}) {
             // The prior of the last two has weight n / (N + n) at most.
             const double tolerance = std::string(encoder) == "least-squares" ? 1e-4 : 0.05;
-            EXPECT_LE(test::excess(*basis, encode(encoder, basis, samples), truth), tolerance) << name << encoder;
+            EXPECT_LE(test::excess(*basis, encode_with(encoder, basis, samples), truth), tolerance) << name << encoder;
         }
     }
 }
 
 TEST(Moments, AnalyticGramConvergesToLeastSquares) {
     for (const char* name : {"sg12", "sg12h", "sh3"}) {
-        const BasisPtr basis = linear_basis(name);
+        const LinearBasisPtr basis = linear_basis(name);
         double previous = 1;
         for (const std::size_t count : {256, 1024, 4096, 16384}) {
             const Samples samples = smooth(basis->domain(), count);
             const double error =
-                test::excess(*basis, encode("moments", basis, samples), least_squares_by_qr(*basis, samples));
+                test::excess(*basis, encode_with("moments", basis, samples), least_squares_by_qr(*basis, samples));
             EXPECT_LT(error, 0.7 * previous) << name << " at " << count;
             previous = error;
         }
@@ -92,12 +93,12 @@ TEST(Moments, AnalyticGramConvergesToLeastSquares) {
 
 TEST(MatrixGain, ApproachesLeastSquares) {
     for (const char* name : {"sg12", "sg12h", "sh3"}) {
-        const BasisPtr basis = linear_basis(name);
+        const LinearBasisPtr basis = linear_basis(name);
         double previous = 1;
         for (const std::size_t count : {256, 1024, 4096, 16384}) {
             const Samples samples = smooth(basis->domain(), count);
             const double error =
-                test::excess(*basis, encode("matrix-gain", basis, samples), least_squares_by_qr(*basis, samples));
+                test::excess(*basis, encode_with("matrix-gain", basis, samples), least_squares_by_qr(*basis, samples));
             EXPECT_LT(error, previous) << name << " at " << count;
             previous = error;
         }
@@ -109,8 +110,8 @@ TEST(MatrixGain, ApproachesLeastSquares) {
 TEST(Regularised, IsFiniteAndNoWorseThanItsNeighboursFromTheFirstSample) {
     // Compare it with the sampled and with the exact Gram matrix alone, averaged over 64 seeds.
     for (const char* name : {"sg12", "sg12h"}) {
-        const BasisPtr basis = linear_basis(name);
-        const auto limit = encode("least-squares", basis, smooth(basis->domain(), 16384));
+        const LinearBasisPtr basis = linear_basis(name);
+        const auto limit = encode_with("least-squares", basis, smooth(basis->domain(), 16384));
         std::map<std::string, double> total;
         for (std::size_t count = 1; count <= 16; ++count) {
             std::map<std::string, double> mean;
@@ -120,7 +121,7 @@ TEST(Regularised, IsFiniteAndNoWorseThanItsNeighboursFromTheFirstSample) {
                 for (std::size_t i = 0; i < count; ++i)
                     samples.set(i, {direction_at(directions, i), patches(direction_at(directions, i)), 1});
                 for (const char* encoder : {"regularised", "moments", "least-squares"}) {
-                    const auto c = encode(encoder, basis, samples);
+                    const auto c = encode_with(encoder, basis, samples);
                     EXPECT_TRUE(test::all_finite(c));
                     mean[encoder] += test::excess(*basis, c, limit) / 64;
                 }
@@ -244,11 +245,11 @@ TEST(NonNegativeLeastSquares, OfNothingToGainIsZero) {
 }
 
 TEST(NonNegativeLeastSquares, IsLeastSquaresWhereThatIsNonNegative) {
-    const BasisPtr basis = linear_basis("sg12");
+    const LinearBasisPtr basis = linear_basis("sg12");
     const Samples bright = test::samples_of(Domain::sphere, 4096, [](Vec3 d) { return Rgb{3 + d.x, 2, 3 + d.y}; });
-    const auto expected = encode("least-squares", basis, bright);
+    const auto expected = encode_with("least-squares", basis, bright);
     for (const Rgb& v : expected) ASSERT_GT(std::min({v.r, v.g, v.b}), 0);
-    EXPECT_LE(test::distance(encode("nnls", basis, bright), expected), 1e-5 * test::norm(expected));
+    EXPECT_LE(test::distance(encode_with("nnls", basis, bright), expected), 1e-5 * test::norm(expected));
 }
 
 // ---- The joint norm ----
@@ -268,23 +269,23 @@ double irradiance_error(const LinearBasis& basis, const std::vector<Rgb>& c, Sam
 TEST(JointNorm, OfWeightZeroIsTheRegularisedForm) {
     for (const char* name : {"sg12", "sg12h", "sh2"})
         for (const std::size_t count : {5, 100, 4096}) {
-            const BasisPtr basis = linear_basis(name);
+            const LinearBasisPtr basis = linear_basis(name);
             const Samples samples = smooth(basis->domain(), count);
-            const auto expected = encode("regularised", basis, samples);
+            const auto expected = encode_with("regularised", basis, samples);
             const auto joint =
-                encode(make_moment_encoder(basis, MomentSolver::joint, {.irradiance_weight = 0}), samples);
+                encode_with(make_moment_encoder(basis, MomentSolver::joint, {.irradiance_weight = 0}), samples);
             EXPECT_LE(test::excess(*basis, joint, expected), 1e-6) << name << " " << count;
         }
 }
 
 TEST(JointNorm, GivesUpRadianceForIrradianceAsItsWeightGrows) {
-    const BasisPtr basis = linear_basis("sg12");
+    const LinearBasisPtr basis = linear_basis("sg12");
     const Samples samples = texel_samples(test::small_sky());
-    const auto limit = encode("least-squares", basis, samples);
+    const auto limit = encode_with("least-squares", basis, samples);
     for (const auto solver : {MomentSolver::joint, MomentSolver::joint_non_negative}) {
         double previous_irradiance = HUGE_VAL, previous_radiance = -1;
         for (const double weight : {0.0, 0.1, 1.0, 10.0}) {
-            const auto c = encode(make_moment_encoder(basis, solver, {.irradiance_weight = weight}), samples);
+            const auto c = encode_with(make_moment_encoder(basis, solver, {.irradiance_weight = weight}), samples);
             const double error = irradiance_error(*basis, c, samples), radiance = test::excess(*basis, c, limit);
             EXPECT_LT(error, previous_irradiance) << weight;
             EXPECT_GT(radiance, previous_radiance) << weight;
@@ -298,8 +299,8 @@ TEST(JointNorm, GivesUpRadianceForIrradianceAsItsWeightGrows) {
 
 TEST(Progressive, EveryPublishedChoiceConverges) {
     using Denominator = ProgressiveOptions::Denominator;
-    const BasisPtr basis = linear_basis("sg12");
-    const auto limit = encode("least-squares", basis, smooth(Domain::sphere, 16384));
+    const LinearBasisPtr basis = linear_basis("sg12");
+    const auto limit = encode_with("least-squares", basis, smooth(Domain::sphere, 16384));
     std::map<std::string, ProgressiveOptions> choices;
     choices["clamped"] = {};
     choices["sampled"].denominator = Denominator::sampled;
@@ -307,31 +308,31 @@ TEST(Progressive, EveryPublishedChoiceConverges) {
     choices["sampled, first given"].first_mean_square = 0.04f;
     choices["exact"].denominator = Denominator::exact;
     choices["ramp"].ramp = 100;
-    choices["seed"].seed = encode("progressive", basis, smooth(Domain::sphere, 256));
+    choices["seed"].seed = encode_with("progressive", basis, smooth(Domain::sphere, 256));
     choices["accelerated"].acceleration = 3;
     for (const auto& [name, options] : choices) {
         const EncoderPtr encoder = make_progressive(basis, Sign::any, options);
         const auto error = [&](std::size_t count) {
-            return test::excess(*basis, encode(encoder, smooth(Domain::sphere, count)), limit);
+            return test::excess(*basis, encode_with(encoder, smooth(Domain::sphere, count)), limit);
         };
         EXPECT_LT(error(16384), 0.7 * error(256)) << name;
         EXPECT_LT(error(16384), 0.05) << name;
 
         // The non-negative form stays non-negative, and converges to a solution as good as least squares with b >= 0.
-        const auto c = encode(make_progressive(basis, Sign::non_negative, options), smooth(Domain::sphere, 16384));
+        const auto c = encode_with(make_progressive(basis, Sign::non_negative, options), smooth(Domain::sphere, 16384));
         for (const Rgb& v : c) EXPECT_GE(std::min({v.r, v.g, v.b}), 0) << name;
-        EXPECT_LT(test::excess(*basis, c, encode("nnls", basis, smooth(Domain::sphere, 16384))), 0.05) << name;
+        EXPECT_LT(test::excess(*basis, c, encode_with("nnls", basis, smooth(Domain::sphere, 16384))), 0.05) << name;
     }
 }
 
 TEST(Progressive, FirstSampleOfAnExactDenominatorIsItsFormula) {
     // b_i = v w_i / S_i, S_i the mean of B_i^2: (1 - e^(-4 lambda)) / (4 lambda).
-    const BasisPtr basis = linear_basis("sg12");
+    const LinearBasisPtr basis = linear_basis("sg12");
     ProgressiveOptions options;
     options.denominator = ProgressiveOptions::Denominator::exact;
     Samples one(1);
     one.set(0, {normalize(Vec3{1, -1, 0.5f}), {2, 0, 1}, 0.3f});
-    const auto c = encode(make_progressive(basis, Sign::any, options), one);
+    const auto c = encode_with(make_progressive(basis, Sign::any, options), one);
     std::vector<float> rows(basis->size() * k_block_size);
     basis->values(one.view().directions(), rows.data());
     const double mean_square = -std::expm1(-4 * 6.0) / (4 * 6.0);
@@ -340,7 +341,7 @@ TEST(Progressive, FirstSampleOfAnExactDenominatorIsItsFormula) {
 }
 
 TEST(RunningAverage, IsItsFormula) {
-    const BasisPtr basis = linear_basis("sg5h");
+    const LinearBasisPtr basis = linear_basis("sg5h");
     const Samples samples = smooth(Domain::hemisphere, 50);
     std::vector<double> mu(5), sum(5);
     std::vector<float> rows(5 * k_block_size);
@@ -354,7 +355,7 @@ TEST(RunningAverage, IsItsFormula) {
             mu[i] += delta * rows[i * k_block_size + j] / sum[i];
         }
     }
-    const auto c = encode("running-average", basis, samples);
+    const auto c = encode_with("running-average", basis, samples);
     for (std::size_t i = 0; i < 5; ++i) EXPECT_NEAR(c[i].g, mu[i], 1e-4 * std::abs(mu[i])) << i;
 }
 
@@ -368,16 +369,17 @@ class EnnisConvergence {
             orders_.push_back(shuffled_texel_samples(test::ennis(), basis_->domain(), seed));
     }
     [[nodiscard]] double operator()(const std::string& encoder, std::size_t count) {
-        if (!limits_.contains(encoder)) limits_[encoder] = encode(encoder_limit(encoder).c_str(), basis_, orders_[0]);
+        if (!limits_.contains(encoder))
+            limits_[encoder] = encode_with(encoder_limit(encoder).c_str(), basis_, orders_[0]);
         double sum = 0;
         for (const Samples& order : orders_)
-            sum +=
-                test::excess(*basis_, encode(encoder.c_str(), basis_, order.view().part(0, count)), limits_[encoder]);
+            sum += test::excess(*basis_, encode_with(encoder.c_str(), basis_, order.view().part(0, count)),
+                                limits_[encoder]);
         return sum / static_cast<double>(orders_.size());
     }
 
   private:
-    BasisPtr basis_;
+    LinearBasisPtr basis_;
     std::vector<Samples> orders_;
     std::map<std::string, std::vector<Rgb>> limits_;
 };
@@ -417,7 +419,7 @@ TEST(EnnisFigures, AreThoseOfTheReference) {
     struct Figures {
         double radiance, irradiance;
     };
-    const auto measure = [&](const BasisPtr& basis, const EncoderPtr& encoder) {
+    const auto measure = [&](const LinearBasisPtr& basis, const EncoderPtr& encoder) {
         const Codec codec({}, encoder, basis->evaluator(basis->is_non_negative() ? "exact" : "convolution"));
         const auto c = codec.encode(texels);
         Colours L(texels.size()), E(2048);
@@ -437,7 +439,7 @@ TEST(EnnisFigures, AreThoseOfTheReference) {
             rms(L, view.radiance(), [&](std::size_t i) { return double{view.solid_angles()[i]}; }),
             rms(E, reference, [&](std::size_t i) { return grid.solid_angle(i / grid.width); }) / k_pi / L_mean};
     };
-    const BasisPtr sg12 = linear_basis("sg12");
+    const LinearBasisPtr sg12 = linear_basis("sg12");
     const auto joint = [&](MomentSolver solver, double weight) {
         return measure(sg12, make_moment_encoder(sg12, solver, {.irradiance_weight = weight}));
     };
@@ -453,7 +455,7 @@ TEST(EnnisFigures, AreThoseOfTheReference) {
     EXPECT_NEAR(joint(MomentSolver::joint_non_negative, 1).irradiance, .251, 5e-4);
     const std::map<const char*, Figures> harmonics = {{"sh1", {0, .385}}, {"sh2", {5.407, .0743}}, {"sh4", {0, .0223}}};
     for (const auto& [name, printed] : harmonics) {
-        const BasisPtr basis = linear_basis(name);
+        const LinearBasisPtr basis = linear_basis(name);
         const Figures found = measure(basis, make_encoder("projection", basis).value());
         if (printed.radiance > 0) {
             EXPECT_NEAR(found.radiance, printed.radiance, 5e-4) << name;

@@ -18,7 +18,7 @@ using namespace std::string_literals;
 using JpegColours = JpegSpec::Colours;
 using Scans = JpegSpec::Scans;
 
-constexpr std::size_t k_width = 19, k_height = 10, k_most_pixels = 1 << 16;
+constexpr std::size_t k_picture_width = 19, k_picture_height = 10, k_most_pixels = 1 << 16;
 
 Result<PictureRgba8> read_rgba8(const std::string& bytes, std::size_t most_pixels = k_most_pixels) {
     return read_picture_rgba8(std::as_bytes(std::span(bytes)), "picture", most_pixels);
@@ -76,9 +76,9 @@ std::vector<JpegSpec> jpeg_kinds() {
 
 /// Returns a file of each format.
 std::vector<std::string> some_files() {
-    const TestPicture picture = test_picture(k_width, k_height, Alpha::transparent);
-    return {make_png(k_width, k_height).bytes,
-            make_png(k_width, k_height, {PngSpec::Colours::palette, 4, true, true}).bytes,
+    const TestPicture picture = test_picture(k_picture_width, k_picture_height, Alpha::transparent);
+    return {make_png(k_picture_width, k_picture_height).bytes,
+            make_png(k_picture_width, k_picture_height, {PngSpec::Colours::palette, 4, true, true}).bytes,
             make_jpeg(picture),
             make_jpeg(picture, {.scans = Scans::progressive}),
             make_jpeg(picture, {.colours = JpegColours::ycck, .scans = Scans::by_component}),
@@ -88,7 +88,7 @@ std::vector<std::string> some_files() {
 
 TEST(ReadPicture, EveryKindOfPngDecodes) {
     for (const PngSpec& spec : png_kinds()) {
-        const PngFile file = make_png(k_width, k_height, spec);
+        const PngFile file = make_png(k_picture_width, k_picture_height, spec);
         const auto picture = read_rgba8(file.bytes);
         ASSERT_TRUE(picture) << picture.error().message;
         EXPECT_EQ(largest_difference(*picture, file.picture), 0)
@@ -97,7 +97,7 @@ TEST(ReadPicture, EveryKindOfPngDecodes) {
 }
 
 TEST(ReadPicture, EveryKindOfJpegDecodes) {
-    const TestPicture colours = test_picture(k_width, k_height);
+    const TestPicture colours = test_picture(k_picture_width, k_picture_height);
     for (const JpegSpec& spec : jpeg_kinds()) {
         const auto picture = read_rgba8(make_jpeg(colours, spec));
         ASSERT_TRUE(picture) << picture.error().message;
@@ -107,7 +107,7 @@ TEST(ReadPicture, EveryKindOfJpegDecodes) {
 }
 
 TEST(ReadPicture, EveryKindOfWebpDecodes) {
-    const TestPicture colours = test_picture(k_width, k_height, Alpha::transparent);
+    const TestPicture colours = test_picture(k_picture_width, k_picture_height, Alpha::transparent);
     const auto lossless = read_rgba8(make_webp(colours)), lossy = read_rgba8(make_webp(colours, {.lossless = false}));
     ASSERT_TRUE(lossless) << lossless.error().message;
     ASSERT_TRUE(lossy) << lossy.error().message;
@@ -143,7 +143,7 @@ TEST(ReadPicture, AnyByteChangedIsAnErrorOrAPicture) {
 }
 
 TEST(ReadPicture, JpegTablesMustBeDefined) {
-    const TestPicture picture = test_picture(k_width, k_height);
+    const TestPicture picture = test_picture(k_picture_width, k_picture_height);
     for (const Scans scans : {Scans::interleaved, Scans::by_component, Scans::progressive}) {
         const std::string good = make_jpeg(picture, {.scans = scans});
         const std::string huffman = picture_error(jpeg_without(good, 0xc4)),
@@ -166,13 +166,15 @@ TEST(ReadPicture, JpegTablesMustBeDefined) {
 TEST(ReadPicture, LaterScansHaveNoDefaultTables) {
     // Use a scan for each component; all but the first name undefined tables.
     for (const std::size_t defined : {std::size_t{1}, std::size_t{2}}) {
-        auto segments = split_jpeg(make_jpeg(test_picture(k_width, k_height), {.scans = Scans::by_component}));
+        auto segments =
+            split_jpeg(make_jpeg(test_picture(k_picture_width, k_picture_height), {.scans = Scans::by_component}));
         std::size_t scans = 0;
         for (auto& segment : segments)
             if (segment.code == 0xda && ++scans > defined) segment.bytes[6] = '\x22';
         EXPECT_NE(picture_error(join_jpeg(segments)).find("Huffman table"), std::string::npos) << defined;
     }
-    auto segments = split_jpeg(make_jpeg(test_picture(k_width, k_height), {.scans = Scans::by_component}));
+    auto segments =
+        split_jpeg(make_jpeg(test_picture(k_picture_width, k_picture_height), {.scans = Scans::by_component}));
     std::size_t tables = 0;
     std::erase_if(segments, [&](const JpegSegment& s) { return s.code == 0xc4 && ++tables > 2; });
     EXPECT_FALSE(read_rgba8(join_jpeg(segments)));
@@ -180,7 +182,7 @@ TEST(ReadPicture, LaterScansHaveNoDefaultTables) {
 
 TEST(ReadPicture, EveryComponentNeedsAScan) {
     for (const Scans kind : {Scans::by_component, Scans::progressive}) {
-        auto segments = split_jpeg(make_jpeg(test_picture(k_width, k_height), {.scans = kind}));
+        auto segments = split_jpeg(make_jpeg(test_picture(k_picture_width, k_picture_height), {.scans = kind}));
         const auto count = [&] {
             return std::count_if(segments.begin(), segments.end(), [](const auto& s) { return s.code == 0xda; });
         };
@@ -198,7 +200,8 @@ TEST(ReadPicture, EveryComponentNeedsAScan) {
 }
 
 TEST(ReadPicture, ManyScansAreRefused) {
-    auto segments = split_jpeg(make_jpeg(test_picture(k_width, k_height), {.scans = Scans::by_component}));
+    auto segments =
+        split_jpeg(make_jpeg(test_picture(k_picture_width, k_picture_height), {.scans = Scans::by_component}));
     const auto scan = std::find_if(segments.begin(), segments.end(), [](const auto& s) { return s.code == 0xda; });
     ASSERT_NE(scan, segments.end());
     const JpegSegment copy = *scan;
@@ -208,7 +211,7 @@ TEST(ReadPicture, ManyScansAreRefused) {
 
 TEST(ReadPicture, DamagedDataIsAnError) {
     // Flip bits everywhere in the image data of a PNG: the checksum detects them.
-    const PngFile png = make_png(k_width, k_height);
+    const PngFile png = make_png(k_picture_width, k_picture_height);
     for (std::size_t i = png.bytes.find("IDAT") + 4; i < png.bytes.size(); ++i) {
         std::string damaged = png.bytes;
         damaged[i] = static_cast<char>(damaged[i] ^ 4);
@@ -222,7 +225,7 @@ TEST(ReadPicture, DamagedDataIsAnError) {
 }
 
 TEST(ReadPicture, OrientationIsIgnored) {
-    const TestPicture picture = test_picture(k_width, k_height);
+    const TestPicture picture = test_picture(k_picture_width, k_picture_height);
     auto segments = split_jpeg(make_jpeg(picture));
     // Exif, little-endian, one entry: orientation, a short, 6 (rotated by 90 degrees).
     const std::string exif = "Exif\0\0II*\0\x08\0\0\0\x01\0\x12\x01\x03\0\x01\0\0\0\x06\0\0\0\0\0\0\0"s;
@@ -231,17 +234,18 @@ TEST(ReadPicture, OrientationIsIgnored) {
     const auto turned = read_rgba8(join_jpeg(segments)), plain = read_rgba8(make_jpeg(picture));
     ASSERT_TRUE(turned) << turned.error().message;
     EXPECT_EQ(turned->texels, plain->texels);
-    EXPECT_EQ(turned->width, k_width);
+    EXPECT_EQ(turned->width, k_picture_width);
 }
 
 TEST(ReadPicture, LimitsHoldBeforeAllocation) {
     for (const std::string& bytes : some_files())
-        EXPECT_NE(picture_error(bytes, k_width * k_height - 1).find("at most 189 pixels"), std::string::npos);
+        EXPECT_NE(picture_error(bytes, k_picture_width * k_picture_height - 1).find("at most 189 pixels"),
+                  std::string::npos);
     // Claim 50000 x 50000 pixels in a few bytes: in the header of a PNG, and of a JPEG.
-    std::string png = make_png(k_width, k_height).bytes;
+    std::string png = make_png(k_picture_width, k_picture_height).bytes;
     png.replace(16, 8, "\0\0\xc3\x50\0\0\xc3\x50"s);
     EXPECT_FALSE(read_rgba8(png, std::size_t{1} << 40));
-    auto segments = split_jpeg(make_jpeg(test_picture(k_width, k_height)));
+    auto segments = split_jpeg(make_jpeg(test_picture(k_picture_width, k_picture_height)));
     for (auto& segment : segments)
         if (segment.code == 0xc0) segment.bytes.replace(5, 4, "\xc3\x50\xc3\x50");
     const std::string message = picture_error(join_jpeg(segments), std::size_t{1} << 40);
@@ -261,9 +265,9 @@ TEST(ReadPicture, UnreadFormatsAreNamed) {
 }
 
 TEST(ReadLdr, SixteenBitsAreKept) {
-    const PngFile file = make_png(k_width, k_height, {PngSpec::Colours::rgb, 16});
+    const PngFile file = make_png(k_picture_width, k_picture_height, {PngSpec::Colours::rgb, 16});
     const auto loaded = read_as_environment(file.bytes),
-               coarse = read_as_environment(make_png(k_width, k_height).bytes);
+               coarse = read_as_environment(make_png(k_picture_width, k_picture_height).bytes);
     ASSERT_TRUE(loaded && coarse);
     std::vector<float> levels;
     for (const Rgb& pixel : loaded->image.pixels) levels.push_back(pixel.r);

@@ -8,7 +8,7 @@
 namespace lobelia {
 namespace {
 
-ComparisonOptions figures_only() {
+ComparisonOptions recipe_figures() {
     ComparisonOptions options;
     options.pictures = false;
     return options;
@@ -20,7 +20,7 @@ struct Published {
 };
 
 void expect_published(Recipe recipe, const std::vector<Published>& table) {
-    const Comparison result = run_recipe(recipe, test::ennis(), figures_only());
+    const Comparison result = run_recipe(recipe, test::ennis(), recipe_figures());
     ASSERT_EQ(result.methods.size(), table.size());
     EXPECT_EQ(result.recipe, recipe_name(recipe));
     EXPECT_EQ(result.samples, 20000u);
@@ -54,7 +54,7 @@ TEST(Recipes, UpdatedFiguresAreReproduced) {
 
 TEST(Recipes, PublishedCoefficientsAreReproduced) {
     SKIP_WITHOUT_ENNIS();
-    const Comparison result = run_recipe(Recipe::published, test::ennis(), figures_only());
+    const Comparison result = run_recipe(Recipe::published, test::ennis(), recipe_figures());
     const auto& c = result.methods[1].c;
     const auto expect = [](Rgb found, std::array<double, 3> printed) {
         EXPECT_NEAR(found.r, printed[0], 1e-4 * std::abs(printed[0]) + 1e-4);
@@ -70,7 +70,7 @@ TEST(Recipes, PublishedCoefficientsAreReproduced) {
 
 TEST(Recipes, BlackEnvironmentGivesZerosNotNaN) {
     for (const Recipe recipe : {Recipe::published, Recipe::updated}) {
-        const Comparison result = run_recipe(recipe, Image(256, 128), figures_only());
+        const Comparison result = run_recipe(recipe, Image(256, 128), recipe_figures());
         for (const Method& method : result.methods) {
             EXPECT_EQ(method.radiance.rms_unweighted, 0) << method.name.str();
             EXPECT_EQ(method.irradiance_over_pi.rms_unweighted, 0) << method.name.str();

@@ -127,8 +127,8 @@ TEST(BadGltf, DamagedTextures) {
           {make_png(19, 10).bytes.substr(0, 90), "images[0]: damaged PNG: the file ends too early"},
           {make_webp(test_picture(19, 10)).substr(0, 60), "images[0]: damaged WebP: "},
           {std::string("BM123456"), "images[0]: a BMP picture is not supported"}})
-        expect_error(reason, [&](GltfFile& f) {
-            f.root["images"][0]["bufferView"] = f.view(std::string_view(bytes));
+        expect_error(reason, [&picture = bytes](GltfFile& f) {
+            f.root["images"][0]["bufferView"] = f.view(std::string_view(picture));
             f.root["images"][0].erase("mimeType");
         });
     // A scan that names tables which were never defined, in a real file.

@@ -98,7 +98,7 @@ void add_lights(Scene& scene, Chance& chance) {
 }
 
 /// A box without a side or two, free triangles, quads with colours at their vertices, a smooth ball; lights.
-Scene random_scene(std::uint32_t seed) {
+Scene random_lit_scene(std::uint32_t seed) {
     Scene scene;
     Chance chance(seed);
     for (int i = 0; i < 6; ++i) scene.materials.push_back(random_material(scene, chance));
@@ -145,7 +145,7 @@ TEST(PathTracerOracle, AgreesInRandomScenes) {
     constexpr std::uint32_t scenes = 20;
     constexpr int bounces = 3;
     for (std::uint32_t seed = 1; seed <= scenes; ++seed) {
-        const Scene scene = random_scene(seed);
+        const Scene scene = random_lit_scene(seed);
         const World world = make_world(scene);
         Chance chance(seed + 100);
         const Vec3 on_floor{chance.in(-0.9f, 0.9f), -1, chance.in(-0.9f, 0.9f)};
