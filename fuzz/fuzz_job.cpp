@@ -1,6 +1,6 @@
 // Feeds any bytes to the reader of job.json, and the job to the checks of bake(). See CMakeLists.txt for how to run it.
 #include "bake/check_job.h"
-#include "bake/write/job_file.h"
+#include "bake/session/job_file.h"
 #include "check_loaded.h"
 #include "lobelia/bake.h"
 #include "memory_folder.h"

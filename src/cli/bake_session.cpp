@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "bake/write/job_file.h"
+#include "bake/session/job_file.h"
 #include "bake/write/manifest.h"
 #include "cli/common.h"
 #include "cli/scene_input.h"

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "bake/write/job_file.h"
+#include "bake/session/job_file.h"
 #include "lobelia/simd.h"
 
 namespace lobelia {

@@ -1,5 +1,5 @@
 // Jobs as files beside their checkpoints.
-#include "bake/write/job_file.h"
+#include "bake/session/job_file.h"
 
 #include <fmt/format.h>
 
