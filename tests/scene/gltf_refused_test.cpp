@@ -289,10 +289,10 @@ TEST_F(GltfFolder, GatheredFilesNameNothingOutside) {
     std::ofstream(folder_ / "scene" / "gathered.gltf") << file_.root.dump();
     const auto gathered = gltf::gather_gltf(folder_ / "scene" / "gathered.gltf", 1 << 20);
     ASSERT_TRUE(gathered) << gathered.error().message;
-    const auto json = nlohmann::json::parse(gathered->json);
+    const auto document = nlohmann::json::parse(gathered->json);
     std::size_t named = 0;
     for (const char* list : {"buffers", "images"})
-        for (const auto& entry : json[list]) {
+        for (const auto& entry : document[list]) {
             if (!entry.contains("uri") || entry["uri"].get<std::string>().starts_with("data:")) continue;
             EXPECT_TRUE(entry["uri"].get<std::string>().starts_with("resource-"));
             ++named;
