@@ -164,7 +164,7 @@ Result<Manifest> write_bake(FilesTogether files, const Bake& bake, const WriteBa
 }
 
 Result<Manifest> write_bake(const fs::path& folder, const Bake& bake, const WriteBakeOptions& options) {
-    auto files = FilesTogether::in(folder);
+    auto files = FilesTogether::in(folder, options.stop);
     return files ? write_bake(*std::move(files), bake, options) : files.error();
 }
 
