@@ -18,7 +18,7 @@
 namespace lobelia {
 namespace {
 
-BakeJob small_job() {
+BakeJob job_to_stop() {
     BakeJob job;
     job.bake.codec = "sh1/moments/convolution";
     job.bake.atlas.width = job.bake.atlas.height = 64;
@@ -29,7 +29,7 @@ BakeJob small_job() {
 
 TEST(Stop, EveryStageLooksAtTheFlag) {
     const Scene scene = embedded_scene("cornell").value();
-    const BakeJob job = small_job();
+    const BakeJob job = job_to_stop();
     const auto made = BakeSetup::make(scene, job.bake);
     ASSERT_TRUE(made) << made.error().message;
     const BakeSetup& setup = **made;
@@ -75,13 +75,13 @@ TEST(Stop, ReachesTheCallerAsAnErrorAndLeavesNoFile) {
     const std::atomic<bool> flag = true;
     const test::TestFolder folder("bake-stop");
     BakeSession session{.folder = folder.path() / "bake", .stop = &flag};
-    const auto baked = bake(scene, small_job(), session);
+    const auto baked = bake(scene, job_to_stop(), session);
     ASSERT_FALSE(baked);
     EXPECT_EQ(baked.error().message, "stopped");
-    EXPECT_FALSE(preflight(scene, small_job(), &flag));
+    EXPECT_FALSE(preflight(scene, job_to_stop(), &flag));
 
     BakeSession whole;
-    const auto bake_there = bake(scene, small_job(), whole);
+    const auto bake_there = bake(scene, job_to_stop(), whole);
     ASSERT_TRUE(bake_there);
     const auto written = write_bake(folder.path() / "out", *bake_there, {.stop = &flag});
     ASSERT_FALSE(written);
