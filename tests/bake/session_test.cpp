@@ -8,9 +8,9 @@
 
 #include "bake/check_job.h"
 #include "bake/session/checkpoint.h"
+#include "bake/session/job_file.h"
 #include "bake/session/setup.h"
 #include "bake/write/bake_fields.h"
-#include "bake/session/job_file.h"
 #include "folders.h"
 #include "lobelia/bake.h"
 #include "scene/embedded.h"
