@@ -1,5 +1,5 @@
-// Feeds any bytes to the reader of one picture format: fuzz_png, fuzz_jpeg and fuzz_webp are this file with
-// LOBELIA_FUZZ_FORMAT defined. See CMakeLists.txt for how to run them.
+// Feeds any bytes to the reader of one picture format: fuzz_png, fuzz_jpeg and fuzz_webp are this file with one of
+// LOBELIA_FUZZ_PNG, LOBELIA_FUZZ_JPEG and LOBELIA_FUZZ_WEBP defined. See CMakeLists.txt for how to run them.
 #include "check_loaded.h"
 #include "io/decode_picture.h"
 #include "io/read_picture.h"
@@ -8,7 +8,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     using namespace lobelia;
     const auto bytes = bytes_of(data, size);
     // Leave other formats to their own fuzzers.
-    if (io::picture_format(bytes) != io::PictureFormat::LOBELIA_FUZZ_FORMAT) return 0;
+#if defined(LOBELIA_FUZZ_PNG)
+    constexpr auto k_format = io::PictureFormat::png;
+#elif defined(LOBELIA_FUZZ_JPEG)
+    constexpr auto k_format = io::PictureFormat::jpeg;
+#else
+    constexpr auto k_format = io::PictureFormat::webp;
+#endif
+    if (io::picture_format(bytes) != k_format) return 0;
     check_loaded(read_ldr(bytes, "fuzz", k_fuzz_options));
     const auto picture = read_picture_rgba8(bytes, "fuzz", k_fuzz_options.most_pixels);
     if (picture)
