@@ -29,7 +29,7 @@ thread_local Stack stack;
 Scratch::Scratch(std::size_t size) {
     check_range("depth of nested working memory", stack.depth, 0, stack.buffers.size() - 1);
     Buffer& buffer = stack.buffers[stack.depth++];
-    if (buffer.size < size) buffer = {std::make_unique_for_overwrite<float[]>(size), size};
+    if (buffer.size < size || !buffer.floats) buffer = {std::make_unique_for_overwrite<float[]>(size), size};
     data_ = buffer.floats.get();
 }
 

@@ -5,8 +5,8 @@
 
 namespace lobelia {
 
-/// `size` floats of unspecified value, until the end of the scope. Scopes nest: memory is taken and given back in the
-/// order of a stack, within one thread.
+/// `size` floats of unspecified value, until the end of the scope; a place even for none. Scopes nest: memory is taken
+/// and given back in the order of a stack, within one thread.
 class Scratch {
   public:
     explicit Scratch(std::size_t size);
