@@ -6,6 +6,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "core/math/half.h"
 #include "core/storage/format/floats.h"
 #include "core/storage/format/format_entry.h"
 

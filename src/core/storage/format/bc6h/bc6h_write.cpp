@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <span>
 
+#include "lobelia/contract.h"
+
 namespace lobelia::bc6h {
 namespace {
 
