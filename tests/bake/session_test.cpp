@@ -134,6 +134,23 @@ TEST_F(Sessions, JobFilesAreUnderstoodCompletelyOrRefused) {
     EXPECT_TRUE(read_job(*this / "a"));
 }
 
+TEST_F(Sessions, NumbersOfJobsBeyondFloatBecomeTheLargest) {
+    ASSERT_EQ(bake_in(*this / "a", tiny_job()), "");
+    const fs::path file = *this / "a" / "checkpoint" / "job.json";
+    std::string text = test::contents(file);
+    const std::string none = "\"probes\": null";
+    ASSERT_NE(text.find(none), std::string::npos);
+    text.replace(
+        text.find(none), none.size(),
+        R"("probes": {"box": {"lowest": {"x": -1e300, "y": 0, "z": 0}, "highest": {"x": 1e300, "y": 1, "z": 1}}})");
+    test::overwrite(file, text);
+    const auto job = read_job(*this / "a");
+    ASSERT_TRUE(job) << job.error().message;
+    ASSERT_TRUE(job->probes && job->probes->box);
+    EXPECT_EQ((*job->probes->box)[0].x, std::numeric_limits<float>::lowest());
+    EXPECT_EQ((*job->probes->box)[1].x, std::numeric_limits<float>::max());
+}
+
 TEST_F(Sessions, OptionsOutOfRangeAreRefusedByTheBakeItself) {
     const std::vector<std::function<void(BakeJob&)>> changes = {
         [](BakeJob& j) { j.bake.samples = 0; },

@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <limits>
+
 #include "bake/check_job.h"
 #include "bake/session/checkpoint.h"
 #include "bake/write/bake_fields.h"
@@ -32,7 +35,10 @@ void fields(auto& archive, Vec3& v) {
     archive.number("x", c[0]);
     archive.number("y", c[1]);
     archive.number("z", c[2]);
-    v = {static_cast<float>(c[0]), static_cast<float>(c[1]), static_cast<float>(c[2])};
+    // Numbers beyond float32 become its largest: their conversion is undefined.
+    static constexpr double k_largest = std::numeric_limits<float>::max();
+    const auto in_range = [](double x) { return static_cast<float>(std::clamp(x, -k_largest, k_largest)); };
+    v = {in_range(c[0]), in_range(c[1]), in_range(c[2])};
 }
 
 void fields(auto& archive, std::array<Vec3, 2>& box) {
