@@ -231,8 +231,12 @@ Result<Bake> run(const Scene& scene, const BakeJob& job, const BakeSession& sess
     const fs::path checkpoint = session.folder.empty() ? fs::path() : checkpoint_folder(session.folder);
     Status status = begin(*work, job, session);
     if (status) status = gather_and_solve(*work, session, checkpoint);
-    if (job.bake.shard.count > 1) work->bake.pages.clear();
-    if (!status || job.bake.shard.count > 1) return status ? Result<Bake>(work->bake) : status.error();
+    if (!status) return status.error();
+    if (job.bake.shard.count > 1) {
+        // The states are all that a shard has.
+        work->bake.pages.clear();
+        return std::move(work->bake);
+    }
 
     // Finish the pages, add probes, and write the folder.
     status = finish(*work, job.finish, session, [](auto&) -> Status { return Done{}; });

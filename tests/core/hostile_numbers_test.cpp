@@ -21,13 +21,19 @@ std::vector<std::shared_ptr<const Basis>> all_bases() {
     return bases;
 }
 
-/// All numbers hostile, from several places in the list; then one among tame ones.
+/// Calls `call` with the whole list from three starts, where one with each number would take too long.
 template <class Call>
-void for_each_list(const Call& call) {
+void for_few_lists(const Call& call) {
     for (std::size_t first = 0; first < 3; ++first) {
         Numbers numbers(k_hostile_numbers, first);
         call(numbers);
     }
+}
+
+/// All numbers hostile, from several places in the list; then one among tame ones.
+template <class Call>
+void for_each_list(const Call& call) {
+    for_few_lists(call);
     for (const float hostile : k_hostile_numbers) {
         std::array<float, 61> tame{};
         for (std::size_t i = 0; i < tame.size(); ++i) tame[i] = 0.1f + 0.01f * static_cast<float>(i);
@@ -51,10 +57,7 @@ TEST(HostileNumbers, EveryBasisReturns) {
             if (quick)
                 for_each_list([&](Numbers& numbers) { test::call_basis(*basis, numbers); });
             else
-                for (std::size_t first = 0; first < 3; ++first) {
-                    Numbers numbers(k_hostile_numbers, first);
-                    test::call_basis(*basis, numbers);
-                }
+                for_few_lists([&](Numbers& numbers) { test::call_basis(*basis, numbers); });
         }
     });
 }
@@ -75,10 +78,7 @@ TEST(HostileNumbers, EverySpecularEvaluatorReturns) {
         for (const std::string& name : specular_names(*basis)) {
             SCOPED_TRACE(basis->name() + "/" + name);
             const auto evaluator = make_specular(name, basis).value();
-            for (std::size_t first = 0; first < 3; ++first) {
-                Numbers numbers(k_hostile_numbers, first);
-                test::call_specular(*evaluator, basis->size(), numbers);
-            }
+            for_few_lists([&](Numbers& numbers) { test::call_specular(*evaluator, basis->size(), numbers); });
         }
 }
 
@@ -87,10 +87,7 @@ TEST(HostileNumbers, EveryEncoderReturns) {
         for (const std::string& name : encoder_names(*basis)) {
             SCOPED_TRACE(basis->name() + "/" + name);
             const auto encoder = make_encoder(name, basis).value();
-            for (std::size_t first = 0; first < 3; ++first) {
-                Numbers numbers(k_hostile_numbers, first);
-                test::call_encoder(encoder, numbers);
-            }
+            for_few_lists([&](Numbers& numbers) { test::call_encoder(encoder, numbers); });
         }
 }
 

@@ -15,7 +15,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little);
 
 constexpr std::array<char, 8> k_magic{'L', 'O', 'B', 'S', 'T', 'A', 'T', 'E'};
-constexpr std::uint32_t k_checkpoint_version = 1;
+constexpr std::uint32_t k_checkpoint_version = 2;
 
 /// The beginning of the file.
 struct FileHeader {

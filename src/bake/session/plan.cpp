@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "core/math/hash.h"
+
 namespace lobelia {
 
 std::vector<std::uint32_t> texels_of(const TexelMap& map, std::span<const std::uint32_t> tiles) {
@@ -12,12 +14,7 @@ std::vector<std::uint32_t> texels_of(const TexelMap& map, std::span<const std::u
     return result;
 }
 
-std::uint64_t hash_of_texels(std::span<const std::uint32_t> texels) {
-    // FNV-1a over whole words.
-    std::uint64_t hash = 0xcbf29ce484222325;
-    for (const std::uint32_t texel : texels) hash = (hash ^ texel) * 0x100000001b3;
-    return hash;
-}
+std::uint64_t hash_of_texels(std::span<const std::uint32_t> texels) { return hash_of(texels); }
 
 std::vector<std::uint32_t> tiles_of(const TexelMap& map, const Shard& shard) {
     const auto tiles = static_cast<std::uint32_t>(map.first_of_tile.empty() ? 0 : map.first_of_tile.size() - 1);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "bake/place/objects.h"
+#include "core/math/hash.h"
 #include "scene/scene_hash.h"
 
 namespace lobelia {
@@ -66,9 +67,9 @@ std::uint64_t state_hash(const Scene& scene, const BakeOptions& o) {
                     static_cast<int>(p.environment_table), static_cast<int>(p.roulette), static_cast<int>(p.sun_size),
                     static_cast<int>(o.directions), static_cast<int>(o.push_out), o.target_error.value_or(0),
                     o.only_object.value_or(""));
-    std::uint64_t hash = 0xcbf29ce484222325;  // FNV-1a
-    for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
-    return hash;
+    Hash hash;
+    hash.bytes(text.data(), text.size());
+    return hash.value();
 }
 
 }  // namespace lobelia
