@@ -191,6 +191,21 @@ TEST(Kernels, CombineWritesNothingBeyondItsEnd) {
     }
 }
 
+TEST(Kernels, ClampNegativeKeepsNanAndTouchesNothingBeyondItsEnd) {
+    for (const std::size_t count : {0u, 1u, 7u, 16u, 37u}) {
+        std::vector<float> values(count + 1, -1);
+        for (std::size_t i = 0; i < count; ++i) values[i] = i % 3 == 0 ? -2.0f : i % 3 == 1 ? 3.0f : std::nanf("");
+        kernels::clamp_negative({values.data(), count});
+        for (std::size_t i = 0; i < count; ++i) {
+            if (i % 3 == 2)
+                EXPECT_TRUE(std::isnan(values[i]));
+            else
+                EXPECT_EQ(values[i], i % 3 == 0 ? 0 : 3);
+        }
+        EXPECT_EQ(values[count], -1);
+    }
+}
+
 TEST(Kernels, SequentialUpdatesAreTheSameOnAllTargets) {
     constexpr std::size_t lanes = 16;
     for (const std::size_t size : k_sizes) {

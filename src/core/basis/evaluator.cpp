@@ -130,8 +130,7 @@ void signed_irradiance_many(const Evaluator& evaluator, std::span<const std::spa
 }
 
 void clamp_negative(MutableColourView colours) {
-    for (std::size_t k = 0; k < 3; ++k)
-        for (std::size_t i = 0; i < colours.size; ++i) colours.channel(k)[i] = std::max(colours.channel(k)[i], 0.0f);
+    for (std::size_t k = 0; k < 3; ++k) kernels::clamp_negative({colours.channel(k), colours.size});
 }
 
 }  // namespace lobelia

@@ -140,12 +140,33 @@ Rgb sum_at_unrolled(const float* table, const Rgb* c, const float* factors, cons
     return sum_at(std::integral_constant<std::size_t, degree>(), k_every_band, table, c, factors, w);
 }
 
+/// Degree 2 as polynomials of x, y and z, which wait for each other less than recurrences do.
+Rgb sum_at_degree_2(const Rgb* c, const float* factors, const Vec3& w) {
+    constexpr float y_0 = 0.28209479f, y_1 = 0.48860251f;  // sqrt(1 / 4 pi), sqrt(3 / 4 pi)
+    // sqrt(15 / 4 pi) for xy, yz, xz; sqrt(5 / 16 pi) for 3 z^2 - 1; sqrt(15 / 16 pi) for x^2 - y^2.
+    constexpr float y_2 = 1.09254843f, y_20 = 0.31539157f, y_22 = 0.54627422f;
+    const DC d;
+    ColourSum sum(c, 9);
+    const float one = y_1 * factors[1], two = y_2 * factors[2];
+    const float x = two * w.x, y = two * w.y;
+    sum.add(0, hn::Set(d, y_0 * factors[0]));
+    sum.add(1, hn::Set(d, one * w.y));
+    sum.add(2, hn::Set(d, one * w.z));
+    sum.add(3, hn::Set(d, one * w.x));
+    sum.add(4, hn::Set(d, x * w.y));
+    sum.add(5, hn::Set(d, y * w.z));
+    sum.add(6, hn::Set(d, y_20 * factors[2] * (3 * w.z * w.z - 1)));
+    sum.add(7, hn::Set(d, x * w.z));
+    sum.add(8, hn::Set(d, y_22 * factors[2] * (w.x * w.x - w.y * w.y)));
+    return sum.total();
+}
+
 Rgb SumAt(std::size_t degree, const float* table, const Rgb* c, const float* factors, const Vec3& w) {
     switch (degree) {
         case 1:
             return sum_at_unrolled<1>(table, c, factors, w);
         case 2:
-            return sum_at_unrolled<2>(table, c, factors, w);
+            return sum_at_degree_2(c, factors, w);
         case 3:
             return sum_at_unrolled<3>(table, c, factors, w);
         default:

@@ -195,6 +195,15 @@ void CombineEach(const float* rows, std::span<const float* const> c, std::size_t
     }
 }
 
+void ClampNegative(std::span<float> values) {
+    const D d;
+    for (std::size_t j = 0; j < values.size(); j += hn::Lanes(d)) {
+        const V v = load(d, values.data(), j, values.size());
+        // A comparison, since the maximum of a NaN differs between machines: it stays one.
+        store(d, hn::IfThenZeroElse(hn::Lt(v, hn::Zero(d)), v), values.data(), j, values.size());
+    }
+}
+
 Rgb WeightedSum(const float* weights, std::span<const Rgb> c) {
     return lobelia::HWY_NAMESPACE::weighted_sum(weights, c.data(), c.size());
 }
@@ -285,6 +294,7 @@ HWY_EXPORT(AddGram);
 HWY_EXPORT(AddWeightedDirections);
 HWY_EXPORT(Combine);
 HWY_EXPORT(CombineEach);
+HWY_EXPORT(ClampNegative);
 HWY_EXPORT(WeightedSum);
 HWY_EXPORT(TransformRows);
 HWY_EXPORT(RunningAverage);
@@ -314,6 +324,7 @@ void combine(const float* rows, std::size_t count, std::span<const Rgb> c, Mutab
 void combine_each(const float* rows, std::span<const float* const> c, std::size_t begin, MutableColourView out) {
     HWY_DYNAMIC_DISPATCH(CombineEach)(rows, c, begin, out);
 }
+void clamp_negative(std::span<float> values) { HWY_DYNAMIC_DISPATCH(ClampNegative)(values); }
 Rgb weighted_sum(const float* weights, std::span<const Rgb> c) { return HWY_DYNAMIC_DISPATCH(WeightedSum)(weights, c); }
 void transform_rows(const float* rows, std::size_t count, const float* matrix, std::size_t size, float* to) {
     HWY_DYNAMIC_DISPATCH(TransformRows)(rows, count, matrix, size, to);

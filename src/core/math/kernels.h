@@ -27,6 +27,9 @@ void combine(const float* rows, std::size_t count, std::span<const Rgb> c, Mutab
 /// The same where every place has coefficients of its own: channel k of c_i for entry j is c[3 i + k][begin + j].
 void combine_each(const float* rows, std::span<const float* const> c, std::size_t begin, MutableColourView out);
 
+/// v_j = max(v_j, 0).
+void clamp_negative(std::span<float> values);
+
 /// sum_i weights_i c_i.
 [[nodiscard]] Rgb weighted_sum(const float* weights, std::span<const Rgb> c);
 
