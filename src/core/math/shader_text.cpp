@@ -1,0 +1,33 @@
+#include "core/math/shader_text.h"
+
+#include <charconv>
+
+namespace lobelia::shader_text {
+
+std::string literal(float value) {
+    char buffer[32];
+    const auto [end, error] = std::to_chars(buffer, buffer + sizeof buffer, value);
+    std::string text(buffer, end);
+    // A point makes it a float in every language.
+    if (text.find_first_of(".n") == std::string::npos) text.insert(std::min(text.find('e'), text.size()), ".0");
+    return text;
+}
+
+std::string literal(Vec3 v) { return "vec3(" + literal(v.x) + ", " + literal(v.y) + ", " + literal(v.z) + ")"; }
+
+std::string literal(double x, double y, double z) {
+    return literal(Vec3{static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)});
+}
+
+std::string coefficient(std::size_t i) { return "light.c[" + std::to_string(i) + "]"; }
+
+ShaderCode sum_of(std::span<const std::string> weights, const std::string& name) {
+    ShaderCode code{{}, {}, name};
+    for (std::size_t i = 0; i < weights.size(); ++i)
+        code.statements +=
+            "    " + (i == 0 ? "vec3 " + name + " = " : name + " += ") + coefficient(i) + " * " +
+            (weights[i].find_first_of("+-", 1) == std::string::npos ? weights[i] : "(" + weights[i] + ")") + ";\n";
+    return code;
+}
+
+}  // namespace lobelia::shader_text
