@@ -19,7 +19,6 @@ namespace lobelia::shader_text {
 /// "light.c[3]".
 [[nodiscard]] std::string coefficient(std::size_t i);
 
-/// One weight of a sum: an expression that is a scalar.
 /// sum_of({"0.5", "n.y"}) is the code of light.c[0] * 0.5 + light.c[1] * n.y: one term a line, by additions to `name`.
 /// The result of the code is `name`.
 [[nodiscard]] ShaderCode sum_of(std::span<const std::string> weights, const std::string& name);
