@@ -50,6 +50,28 @@ std::string function_text(Need need, const ShaderCode& code, Negative negative) 
                        about.name, about.direction, code.statements, result);
 }
 
+Frame frame_of(const Codec& codec, const ShaderRequest& request) {
+    return request.frame.value_or(codec.basis().domain() == Domain::hemisphere ? Frame::tangent : Frame::scene);
+}
+
+/// The rows of the frame, as tangent_from_world() in src/bake/place/tangent.cpp has them.
+constexpr std::string_view k_to_tangent =
+    R"(/// Returns w, a direction in the scene's frame, in the tangent frame of the unit interpolated vertex normal. The frame
+/// depends on that normal alone, not on UVs (Frisvad 2012).
+vec3 to_tangent(vec3 normal, vec3 w) {
+    vec3 x = vec3(3.0, -6.0, 2.0) / 7.0;
+    vec3 y = vec3(6.0, 2.0, -3.0) / 7.0;
+    vec3 z = vec3(2.0, 3.0, 6.0) / 7.0;
+    float a = dot(x, normal);
+    float b = dot(y, normal);
+    float along = dot(z, normal);
+    // 1 + along, also where the normal is nearly -z.
+    float c = choose(along > 0.0, 1.0 + along, (a * a + b * b) / (1.0 - along));
+    vec3 h = (x * a + y * b) / max(c, 1.0e-12) + z;
+    return vec3(dot(x - h * a, w), dot(y - h * b, w), dot(normal, w));
+}
+)";
+
 /// The comment at the head of the text, without the marks of a comment.
 std::string head(const Codec& codec, const ShaderRequest& request) {
     const Accuracy accuracy = codec.evaluator().accuracy();
@@ -62,11 +84,11 @@ std::string head(const Codec& codec, const ShaderRequest& request) {
             text += fmt::format("Irradiance: {}; valid: {}; largest error: {}.\n", codec.evaluator().name(),
                                 accuracy.range, accuracy.error);
     if (request.storage) text += fmt::format("Storage: {}.\n", request.storage->description);
-    text += codec.basis().domain() == Domain::hemisphere
-                ? "Directions are unit vectors in the tangent frame of the texel: x along its tangent, y along its "
-                  "bitangent,\nz along its geometric normal. They point away from the surface.\n"
-                : "Directions are unit vectors in the frame of the bake (right-handed). They point away from the "
-                  "surface.\n";
+    text +=
+        frame_of(codec, request) == Frame::tangent
+            ? "Directions are unit vectors in the tangent frame, see to_tangent(), and point away from the surface. "
+              "Without a\nnormal map the normal is (0, 0, 1).\n"
+            : "Directions are unit vectors in the scene's frame (right-handed), and point away from the surface.\n";
     text += "Irradiance is not divided by pi: a Lambertian surface reflects albedo * E / pi.\n";
     return text;
 }
@@ -90,6 +112,8 @@ Result<std::string> shader_text(const Codec& codec, const ShaderRequest& request
     std::string source = fmt::format(
         "/// The coefficients of one place.\nstruct Coefficients {{\n    vec3 c[{}];\n}};\n\n", codec.basis().size());
     std::string last;
+
+    if (frame_of(codec, request) == Frame::tangent) functions.add({{"to_tangent", std::string(k_to_tangent)}});
 
     // Unpack sampled values.
     if (request.storage) {

@@ -14,6 +14,7 @@
 #include "bake/write/page_textures.h"
 #include "bake/write/probe_files.h"
 #include "bake/write/scene_copy.h"
+#include "bake/write/shader_files.h"
 #include "core/math/half.h"
 #include "lobelia/bake.h"
 
@@ -104,6 +105,7 @@ Status add_scene(FilesTogether& files, const Scene& scene, Manifest& manifest) {
 bool is_name_of_bake(std::string_view name) {
     for (const char* each : {k_scene_name, k_environment_name, k_probes_name, k_probe_coefficients_name})
         if (name == each) return true;
+    if (is_name_of_shader(name)) return true;
     return name.starts_with("page-") && (name.ends_with(".exr") || name.ends_with(".ktx2"));
 }
 
@@ -153,6 +155,7 @@ Result<Manifest> write_bake(FilesTogether files, const Bake& bake, const WriteBa
     const std::size_t others = files.entries().size();
     auto status = choose_precision(bake, manifest);
     if (status) status = add_pages(files, bake, *textures, manifest);
+    if (status) status = add_shaders(files, textures->storages(), manifest);
     if (status) status = add_probes(files, bake, manifest);
     if (status && options.scene != nullptr) status = add_scene(files, *options.scene, manifest);
     manifest.files.assign(files.entries().begin() + static_cast<std::ptrdiff_t>(others), files.entries().end());
