@@ -9,6 +9,7 @@
 
 #include "bake/write/bake_fields.h"
 #include "bake/write/bake_files.h"
+#include "bake/write/lightmap_exports.h"
 #include "bake/write/manifest.h"
 #include "bake/write/page_files.h"
 #include "bake/write/page_textures.h"
@@ -151,10 +152,13 @@ Result<Manifest> write_bake(FilesTogether files, const Bake& bake, const WriteBa
     assert(bake.pages.size() == bake.normals.size());
     const auto textures = PageTextures::make(bake.manifest.options.codec, options.storages, options.container);
     if (!textures) return textures.error();
+    const auto exports = find_lightmap_exports(options.exports);
+    if (!exports) return exports.error();
     Manifest manifest = bake.manifest;
     const std::size_t others = files.entries().size();
     auto status = choose_precision(bake, manifest);
     if (status) status = add_pages(files, bake, *textures, manifest);
+    if (status) status = add_exports(files, bake, *exports, manifest);
     if (status) status = add_shaders(files, textures->storages(), manifest);
     if (status) status = add_probes(files, bake, manifest);
     if (status && options.scene != nullptr) status = add_scene(files, *options.scene, manifest);
