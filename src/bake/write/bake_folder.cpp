@@ -15,6 +15,7 @@
 #include "bake/write/probe_files.h"
 #include "bake/write/scene_copy.h"
 #include "core/math/half.h"
+#include "io/texture/container.h"
 #include "lobelia/bake.h"
 
 namespace lobelia {
@@ -104,7 +105,11 @@ Status add_scene(FilesTogether& files, const Scene& scene, Manifest& manifest) {
 bool is_name_of_bake(std::string_view name) {
     for (const char* each : {k_scene_name, k_environment_name, k_probes_name, k_probe_coefficients_name})
         if (name == each) return true;
-    return name.starts_with("page-") && (name.ends_with(".exr") || name.ends_with(".ktx2"));
+    const auto containers = texture_containers();
+    return name.starts_with("page-") &&
+           (name.ends_with(".exr") || std::any_of(containers.begin(), containers.end(), [&](const auto& container) {
+                return name.ends_with("." + std::string(container.name));
+            }));
 }
 
 /// Removes what the bake in the folder has and the new one does not, and the report, which shows the older one.
