@@ -63,6 +63,7 @@ Status check(const BakeJob& job) {
     check("width of the report's pictures", job.report.width, ranges::side);
     check("height of the report's pictures", job.report.height, ranges::side);
     check("uv set", job.scene.uv_set, ranges::uv_set);
+    check("scene memory", job.scene.scene_memory, ranges::memory);
     if (!check.status()) return check.status();
     if (bake.samples_per_pass % k_lanes != 0)
         return Error{fmt::format("samples per pass = {} is not a multiple of {}", bake.samples_per_pass, k_lanes)};

@@ -58,8 +58,9 @@ Result<Advice> advice_for(const AdviseArguments& arguments) {
 Status write_advice(const Advice& advice, const std::string& subject, const std::filesystem::path& folder) {
     const auto html = study_html(to_study(advice, subject));
     if (!html) return html.error();
-    const std::string json = json_text(to_json(advice), 1) + "\n";
-    const FileContent files[] = {{folder / "advice.html", *html}, {folder / "advice.json", json}};
+    const auto json = figures_text(to_json(advice));
+    if (!json) return json.error();
+    const FileContent files[] = {{folder / "advice.html", *html}, {folder / "advice.json", *json}};
     if (auto status = write_into_folder(folder, files); !status) return status;
     print_line((folder / "advice.html").string());
     return Done{};

@@ -13,7 +13,7 @@
 namespace lobelia::cli {
 
 Result<LatLong> parse_grid(const std::string& text) {
-    const Error error{"\"" + text + "\" is not a size such as 256x128 (at most 2^26 texels)"};
+    const Error error{"\"" + text + "\" is not a size such as 256x128 (at most 67108864 texels)"};
     LatLong grid;
     const char* end = text.data() + text.size();
     auto [x, width_error] = std::from_chars(text.data(), end, grid.width);

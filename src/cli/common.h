@@ -14,7 +14,7 @@
 
 namespace lobelia::cli {
 
-/// Parses "256x128" as a grid of at least 1 x 1 and at most 2^26 texels.
+/// Parses "256x128" as a grid of at least 1 x 1 and at most 2^26 = 67108864 texels.
 [[nodiscard]] Result<LatLong> parse_grid(const std::string& text);
 
 /// Parses "4G", "512M" or a number of bytes, at least 64 MiB; errors name the option.

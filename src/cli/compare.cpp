@@ -28,9 +28,10 @@ struct CompareArguments {
 Status write_report(const CompareArguments& arguments, const Comparison& comparison, const EnvironmentInfo& info) {
     const std::filesystem::path folder = arguments.out;
     const auto report = to_json(comparison, info);
-    const std::string text = json_text(report, 1) + "\n";
+    const auto text = figures_text(report);
+    if (!text) return text.error();
     const std::string html = arguments.json_only ? "" : comparison_html(report, to_pictures(comparison));
-    std::vector<FileContent> files = {{folder / "report.json", text}};
+    std::vector<FileContent> files = {{folder / "report.json", *text}};
     if (!arguments.json_only) files.push_back({folder / "report.html", html});
     if (auto status = write_into_folder(folder, files); !status) return status;
     print_text(summary_text(comparison) + stored_text(comparison));

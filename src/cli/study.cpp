@@ -33,8 +33,10 @@ Status write_study(const Result<Study>& study, const std::filesystem::path& fold
     const auto html = study_html(*study);
     if (!html) return html.error();
     const auto file = [&](const char* extension) { return folder / (study->name + extension); };
-    const std::string markdown = to_markdown(*study), json = json_text(to_json(*study), 1) + "\n";
-    const FileContent files[] = {{file(".html"), *html}, {file(".json"), json}, {file(".md"), markdown}};
+    const std::string markdown = to_markdown(*study);
+    const auto json = figures_text(to_json(*study));
+    if (!json) return json.error();
+    const FileContent files[] = {{file(".html"), *html}, {file(".json"), *json}, {file(".md"), markdown}};
     if (auto status = write_into_folder(folder, files); !status) return status;
     print_text(markdown + "\n");
     print_line(file(".html").string());

@@ -61,17 +61,15 @@ class Walker {
     Walker(ExrInput& in, std::string_view name, const ReadOptions& options, std::size_t most_channels)
         : in_(in), name_(name), options_(options), most_channels_(most_channels) {}
 
-    void file() {
+    ExrHeaders file() {
         if (u32() != 20000630) refuse("not an OpenEXR file");
         const std::uint32_t version = u32();
         if ((version & 0xff) != 2) refuse(fmt::format("OpenEXR file version {}, not 2", version & 0xff));
         tiled_ = (version & k_tiled) != 0;
-        if ((version & k_multi_part) == 0) {
-            part();
-            return;
-        }
-        for (std::size_t parts = 0; part(); ++parts)
+        const bool multi_part = (version & k_multi_part) != 0;
+        for (std::size_t parts = 0; part() && multi_part; ++parts)
             if (parts == k_most_parts) refuse(fmt::format("more than {} parts", k_most_parts));
+        return {in_.tellg(), multi_part};
     }
 
   private:
@@ -199,22 +197,6 @@ class Walker {
     std::uint64_t place_ = 0;
 };
 
-std::int64_t lines_per_chunk(Imf::Compression compression) {
-    switch (compression) {
-        case Imf::NO_COMPRESSION:
-        case Imf::RLE_COMPRESSION:
-        case Imf::ZIPS_COMPRESSION:
-            return 1;
-        case Imf::ZIP_COMPRESSION:
-        case Imf::PXR24_COMPRESSION:
-            return 16;
-        case Imf::DWAB_COMPRESSION:
-            return 256;
-        default:
-            return 32;
-    }
-}
-
 /// Number of samples that OpenEXR buffers at once for a part.
 std::int64_t buffered_samples(const Imf::Header& header) {
     std::int64_t channels = 0;
@@ -228,17 +210,34 @@ std::int64_t buffered_samples(const Imf::Header& header) {
 
 }  // namespace
 
-Status check_exr_headers(ExrInput& in, std::string_view name, const ReadOptions& options, std::size_t most_channels) {
+Result<ExrHeaders> check_exr_headers(ExrInput& in, std::string_view name, const ReadOptions& options,
+                                     std::size_t most_channels) {
     try {
-        Walker(in, name, options, most_channels).file();
+        const ExrHeaders headers = Walker(in, name, options, most_channels).file();
         in.seekg(0);
-        return Done{};
+        return headers;
     } catch (const std::length_error& error) {
         return Error{error.what()};
     } catch (const Refusal& refusal) {
         return Error{fmt::format("{}: damaged OpenEXR header: {}", name, refusal.what())};
     } catch (const std::exception& error) {
         return Error{fmt::format("{}: {}, at byte {} of its OpenEXR header", name, error.what(), in.tellg())};
+    }
+}
+
+std::int64_t lines_per_chunk(Imf::Compression compression) {
+    switch (compression) {
+        case Imf::NO_COMPRESSION:
+        case Imf::RLE_COMPRESSION:
+        case Imf::ZIPS_COMPRESSION:
+            return 1;
+        case Imf::ZIP_COMPRESSION:
+        case Imf::PXR24_COMPRESSION:
+            return 16;
+        case Imf::DWAB_COMPRESSION:
+            return 256;
+        default:
+            return 32;
     }
 }
 

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <atomic>
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
@@ -133,6 +134,28 @@ template <class Read>
 template <class Json>
 [[nodiscard]] std::string json_text(const Json& value, int indent = -1) {
     return value.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
+/// The path of the first number in a value that JSON cannot hold, NaN or an infinity, such as "methods/3/error"; none
+/// if all are finite. nlohmann writes null in its place.
+template <class Json>
+[[nodiscard]] std::optional<std::string> first_not_finite(const Json& value) {
+    if (value.is_number_float()) {
+        const double number = value;
+        return std::isfinite(number) ? std::nullopt : std::optional<std::string>("");
+    }
+    if (!value.is_structured()) return std::nullopt;
+    for (const auto& [key, entry] : value.items())
+        if (const auto within = first_not_finite(entry)) return key + (within->empty() ? "" : "/" + *within);
+    return std::nullopt;
+}
+
+/// The text of a report's figures. An error if one of them is not finite.
+template <class Json>
+[[nodiscard]] Result<std::string> figures_text(const Json& figures) {
+    if (const auto place = first_not_finite(figures))
+        return Error{"the figure \"" + *place + "\" is not finite: is the light too bright for float32?"};
+    return json_text(figures, 1) + "\n";
 }
 
 /// A float as the double with the shortest decimal text that reads back as the float.

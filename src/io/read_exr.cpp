@@ -15,6 +15,7 @@
 #include <optional>
 
 #include "io/exr_checks.h"
+#include "io/exr_chunks.h"
 #include "io/exr_envmap.h"
 #include "io/exr_windows.h"
 #include "io/image_checks.h"
@@ -95,8 +96,7 @@ Status check_choice(const Imf::Header& header, const Choice& choice, std::string
 }
 
 /// Reads R, G, B, or Y into r alone, in place.
-void read_planes(Imf::MultiPartInputFile& file, const Choice& choice, Image& image) {
-    Imf::InputPart part(file, choice.part);
+void read_planes(Imf::InputPart& part, const Choice& choice, Image& image) {
     const auto& window = part.header().dataWindow();
     const std::size_t row = image.width * sizeof(Rgb);
     Imf::FrameBuffer target;
@@ -160,7 +160,7 @@ LoadedImage on_display(LoadedImage loaded, const Imf::Header& header) {
 }
 
 /// Decodes an environment; OpenEXR reports faults of the file as exceptions.
-Result<LoadedImage> decode(ExrInput& in, std::string_view name, const ReadOptions& options) {
+Result<LoadedImage> decode(ExrInput& in, const ExrHeaders& headers, std::string_view name, const ReadOptions& options) {
     // Choose the channels. A missing table of chunks is not reconstructed: such files are incomplete.
     Imf::MultiPartInputFile file(in, Imf::globalThreadCount(), false);
     const Result<Choice> choice = choose(file, name);
@@ -173,11 +173,13 @@ Result<LoadedImage> decode(ExrInput& in, std::string_view name, const ReadOption
     LoadedImage loaded{Image(static_cast<std::size_t>(data.width()), static_cast<std::size_t>(data.height())),
                        warnings_about(file, *choice),
                        {}};
+    Imf::InputPart part(file, choice->part);
+    if (const Status status = check_chunks(in, headers, part, name); !status) return status.error();
     if (choice->kind == Choice::Kind::luminance_chroma) {
         read_luminance_chroma(in, loaded.image);
         clip_negatives(loaded, "rounding of luminance and chroma");
     } else {
-        read_planes(file, *choice, loaded.image);
+        read_planes(part, *choice, loaded.image);
         if (choice->kind == Choice::Kind::luminance)
             for (Rgb& pixel : loaded.image.pixels) pixel = {pixel.r, pixel.r, pixel.r};
         if (crosses_zero(header.compression())) clip_negatives(loaded, "rounding of its lossy compression");
@@ -190,8 +192,9 @@ Result<LoadedImage> decode(ExrInput& in, std::string_view name, const ReadOption
 }
 
 Result<LoadedImage> read(ExrInput& in, std::string_view name, const ReadOptions& options) {
-    if (const Status status = check_exr_headers(in, name, options); !status) return status.error();
-    auto loaded = without_exceptions(in, name, [&] { return decode(in, name, options); });
+    const auto headers = check_exr_headers(in, name, options);
+    if (!headers) return headers.error();
+    auto loaded = without_exceptions(in, name, [&] { return decode(in, *headers, name, options); });
     if (loaded) warn_of_shape(*loaded);
     return loaded;
 }

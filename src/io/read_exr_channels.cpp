@@ -11,6 +11,7 @@
 #include <algorithm>
 
 #include "io/exr_checks.h"
+#include "io/exr_chunks.h"
 #include "io/exr_windows.h"
 
 namespace lobelia {
@@ -32,8 +33,8 @@ Result<std::vector<std::string>> chosen(const Imf::Header& header, std::string_v
 }
 
 /// Decodes the channels; OpenEXR reports faults of the file as exceptions.
-Result<ExrPlanes> decode(io::ExrInput& in, std::string_view name, const ReadChannelsOptions& options,
-                         const ReadOptions& limits) {
+Result<ExrPlanes> decode(io::ExrInput& in, const io::ExrHeaders& headers, std::string_view name,
+                         const ReadChannelsOptions& options, const ReadOptions& limits) {
     // Choose the channels and check their size. A missing table of chunks is not reconstructed.
     Imf::MultiPartInputFile file(in, Imf::globalThreadCount(), false);
     const Imf::Header& header = file.header(0);
@@ -52,6 +53,7 @@ Result<ExrPlanes> decode(io::ExrInput& in, std::string_view name, const ReadChan
 
     // Read them.
     Imf::InputPart part(file, 0);
+    if (const Status status = io::check_chunks(in, headers, part, name); !status) return status.error();
     const auto& window = header.dataWindow();
     const std::size_t row = static_cast<std::size_t>(data.width()) * sizeof(float);
     Imf::FrameBuffer target;
@@ -68,9 +70,9 @@ Result<ExrPlanes> decode(io::ExrInput& in, std::string_view name, const ReadChan
 Result<ExrPlanes> read(io::ExrInput& in, std::string_view name, const ReadChannelsOptions& options) {
     ReadOptions limits;
     limits.most_pixels = options.most_pixels;
-    if (const Status status = io::check_exr_headers(in, name, limits, options.most_channels); !status)
-        return status.error();
-    return io::without_exceptions(in, name, [&] { return decode(in, name, options, limits); });
+    const auto headers = io::check_exr_headers(in, name, limits, options.most_channels);
+    if (!headers) return headers.error();
+    return io::without_exceptions(in, name, [&] { return decode(in, *headers, name, options, limits); });
 }
 
 }  // namespace

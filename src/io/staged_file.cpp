@@ -35,10 +35,10 @@ std::optional<fs::path> create_named_beside(const fs::path& path, const Create& 
     return std::nullopt;
 }
 
-/// Tests for links of the system, which lead to a process's own descriptors.
+/// Tests for links of the system, which lead to a process's own descriptors. Those in /dev/shm are anybody's.
 bool is_of_system(const fs::path& path) {
     const std::string normal = path.lexically_normal().string();
-    return normal.starts_with("/dev/") || normal.starts_with("/proc/");
+    return (normal.starts_with("/dev/") && !normal.starts_with("/dev/shm/")) || normal.starts_with("/proc/");
 }
 
 }  // namespace

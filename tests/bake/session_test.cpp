@@ -120,6 +120,7 @@ TEST_F(Sessions, JobFilesAreUnderstoodCompletelyOrRefused) {
                            {"\"memory\"", "\"memori\"", "memori: unknown"},
                            {"\"denoise\"", "\"denoisy\"", "finish.denoisy: unknown"},
                            {"\"uv_set\": 1", "\"uv_set\": 99", "uv set"},
+                           {"\"scene_memory\": null", "\"scene_memory\": 1", "scene memory = 1 is out of range"},
                            {"{", "{\"codek\": 1,", "codek: unknown"}}) {
         std::string text = good;
         const auto found = text.find(c.from);
@@ -162,6 +163,7 @@ TEST_F(Sessions, OptionsOutOfRangeAreRefusedByTheBakeItself) {
         [](BakeJob& j) { j.bake.atlas.width = 0; },
         [](BakeJob& j) { j.bake.shard.count = 0; },
         [](BakeJob& j) { j.probes.emplace().samples = 0; },
+        [](BakeJob& j) { j.scene.scene_memory = 1; },
     };
     for (const auto& change : changes) {
         BakeJob job = tiny_job();

@@ -124,6 +124,18 @@ TEST_F(WriteFile, TheSystemsOwnLinksAreFollowed) {
     ::close(ends[1]);
 }
 
+TEST_F(WriteFile, LinksInSharedMemoryAreAnybodys) {
+    if (!fs::is_directory("/dev/shm") || ::access("/dev/shm", W_OK) != 0) GTEST_SKIP() << "no /dev/shm on this system";
+    const fs::path link = "/dev/shm/lobelia-test-" + std::to_string(::getpid());
+    test::overwrite(folder_ / "precious", "old");
+    fs::create_symlink(fs::absolute(folder_ / "precious"), link);
+    EXPECT_TRUE(write_file_atomically(link, std::string_view("text")));
+    EXPECT_FALSE(fs::is_symlink(link));
+    EXPECT_EQ(contents(link), "text");
+    EXPECT_EQ(contents(folder_ / "precious"), "old");
+    fs::remove(link);
+}
+
 TEST_F(WriteFile, AStopLeavesTheOldContent) {
     test::overwrite(folder_ / "file", "old");
     const std::atomic<bool> stop = true;

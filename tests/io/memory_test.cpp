@@ -134,8 +134,8 @@ TEST(ImageMemory, TruncatedFilesReadTheSameFromAnyMemory) {
 TEST(ImageMemory, DamagedFilesReadTheSameFromAnyMemory) {
     std::mt19937 generator(7);
     for (const auto& [kind, file] : files()) {
-        if (kind.starts_with("exr")) continue;
-        for (int round = 0; round < 200; ++round) {
+        // Chunks of OpenEXR that lose their length are rare.
+        for (int round = 0; round < (kind.starts_with("exr") ? 1000 : 200); ++round) {
             std::string damaged = file;
             for (int k = 0; k < 2; ++k) damaged[generator() % damaged.size()] = static_cast<char>(generator());
             expect_the_same_from_any_memory(damaged, kind + ", round " + std::to_string(round));

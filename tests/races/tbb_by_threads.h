@@ -42,9 +42,9 @@ class Slots {
         taken_ |= std::uint64_t{1} << free;
         return free;
     }
-    static void give_back(std::size_t slot) {
+    static void give_back(std::size_t place) {
         const std::lock_guard lock(mutex_);
-        taken_ &= ~(std::uint64_t{1} << slot);
+        taken_ &= ~(std::uint64_t{1} << place);
     }
 
   private:

@@ -17,6 +17,7 @@
 #include "bake/write/scene_copy.h"
 #include "bake/write/shader_files.h"
 #include "core/math/half.h"
+#include "io/texture/container.h"
 #include "lobelia/bake.h"
 
 namespace lobelia {
@@ -107,7 +108,11 @@ bool is_name_of_bake(std::string_view name) {
     for (const char* each : {k_scene_name, k_environment_name, k_probes_name, k_probe_coefficients_name})
         if (name == each) return true;
     if (is_name_of_shader(name)) return true;
-    return name.starts_with("page-") && (name.ends_with(".exr") || name.ends_with(".ktx2"));
+    const auto containers = texture_containers();
+    return name.starts_with("page-") &&
+           (name.ends_with(".exr") || std::any_of(containers.begin(), containers.end(), [&](const auto& container) {
+                return name.ends_with("." + std::string(container.name));
+            }));
 }
 
 /// Removes what the bake in the folder has and the new one does not, and the report, which shows the older one.

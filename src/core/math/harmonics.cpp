@@ -244,13 +244,15 @@ Rgb Harmonics::sum_at(std::span<const Rgb> c, std::span<const float> band_factor
 }
 
 std::vector<double> values(std::size_t degree, double x, double y, double z) {
-    const double theta = std::atan2(std::hypot(x, y), z), phi = std::atan2(y, x);
+    const double cosine = std::clamp(z / std::hypot(x, y, z), -1.0, 1.0), phi = std::atan2(y, x);
     std::vector<double> result(coefficient_count(degree));
     for (std::size_t l = 0; l <= degree; ++l)
         for (std::size_t m = 0; m <= l; ++m) {
-            // sph_legendre carries the Condon-Shortley sign, which all-plus harmonics leave out.
-            const double legendre = std::sph_legendre(static_cast<unsigned>(l), static_cast<unsigned>(m), theta) *
-                                    (m % 2 == 1 ? -1 : 1) * (m > 0 ? std::sqrt(2.0) : 1.0);
+            // std::sph_legendre would write to the global signgam, by way of lgamma: a race between threads.
+            double norm = static_cast<double>(2 * l + 1) / (4 * k_pi) * (m > 0 ? 2 : 1);
+            for (std::size_t k = l - m + 1; k <= l + m; ++k) norm /= static_cast<double>(k);
+            const double legendre =
+                std::sqrt(norm) * std::assoc_legendre(static_cast<unsigned>(l), static_cast<unsigned>(m), cosine);
             result[l * l + l + m] = legendre * std::cos(static_cast<double>(m) * phi);
             if (m > 0) result[l * l + l - m] = legendre * std::sin(static_cast<double>(m) * phi);
         }
