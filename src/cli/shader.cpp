@@ -31,7 +31,7 @@ Status shader_verb(const ShaderArguments& arguments) {
     if (!text) return text.error();
     if (!arguments.out.empty()) return write_file_atomically(arguments.out, *text);
     print_text(*text);
-    return {};
+    return Done{};
 }
 
 }  // namespace

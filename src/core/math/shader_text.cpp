@@ -21,12 +21,29 @@ std::string literal(double x, double y, double z) {
 
 std::string coefficient(std::size_t i) { return "light.c[" + std::to_string(i) + "]"; }
 
+namespace {
+
+/// Whether an expression needs brackets to be a factor: it adds or subtracts outside of brackets.
+bool is_sum(const std::string& expression) {
+    int depth = 0;
+    for (std::size_t i = 0; i < expression.size(); ++i) {
+        if (expression[i] == '(') ++depth;
+        if (expression[i] == ')') --depth;
+        if (depth == 0 && i > 0 && expression[i - 1] == ' ' && (expression[i] == '+' || expression[i] == '-'))
+            return true;
+    }
+    return false;
+}
+
+}  // namespace
+
 ShaderCode sum_of(std::span<const std::string> weights, const std::string& name) {
     ShaderCode code{{}, {}, name};
-    for (std::size_t i = 0; i < weights.size(); ++i)
-        code.statements +=
-            "    " + (i == 0 ? "vec3 " + name + " = " : name + " += ") + coefficient(i) + " * " +
-            (weights[i].find_first_of("+-", 1) == std::string::npos ? weights[i] : "(" + weights[i] + ")") + ";\n";
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+        std::string term = coefficient(i);
+        if (weights[i] != "1.0") term += " * " + (is_sum(weights[i]) ? "(" + weights[i] + ")" : weights[i]);
+        code.statements += "    " + ((i == 0 ? "vec3 " + name + " = " : name + " += ") + term) + ";\n";
+    }
     return code;
 }
 
