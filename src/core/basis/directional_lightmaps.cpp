@@ -7,6 +7,8 @@
 #include "core/math/dense.h"
 #include "core/math/harmonics_degree_2.h"
 #include "core/math/quadrature.h"
+#include "core/math/shader_pattern.h"
+#include "core/math/shader_text.h"
 #include "core/math/zonal_quadratic.h"
 
 namespace lobelia {
@@ -112,6 +114,7 @@ class LinearInNormal final : public Evaluator {
                              static_cast<float>(e[k].slope[2])}};
         evaluate(functions, normals, out);
     }
+    [[nodiscard]] Result<ShaderCode> irradiance_code() const override { return basis_.code("n", 1, 1); }
 
   private:
     DirectionalLightmap basis_;
@@ -221,6 +224,35 @@ void DirectionalLightmap::radiance(std::span<const Rgb> c, DirectionView directi
         functions[k] = {static_cast<float>(e[k].constant / k_pi),
                         {slope(e[k].slope[0]), slope(e[k].slope[1]), slope(e[k].slope[2])}};
     evaluate(functions, directions, out);
+}
+
+ShaderCode DirectionalLightmap::code(const std::string& direction, double constant, double slope) const {
+    using shader_text::filled, shader_text::literal;
+    const auto scaled = [&](double factor, const std::string& value) {
+        return factor == 1 ? value : literal(factor) + " * " + value;
+    };
+    switch (kind_) {
+        case Kind::sh1h:
+        case Kind::irradz:
+            return {
+                {},
+                filled("    vec3 along = light.c[3] * $0.x + light.c[1] * $0.y + light.c[2] * $0.z;\n", {direction}),
+                literal(constant * k_constant_factor) + " * light.c[0] + " + literal(slope * k_slope_factor) +
+                    " * along"};
+        case Kind::enlighten:
+            return {{},
+                    filled("    vec3 mean = light.c[0] / max(1.0 + light.c[1].z, 1.0e-4);\n"
+                           "    float along = dot(light.c[1], $0);\n",
+                           {direction}),
+                    "mean * (" + literal(constant) + " + " + scaled(slope, "along") + ")"};
+        case Kind::enlighten_rgb:
+            return {{},
+                    filled("    vec3 mean = light.c[0] / max(1.0 + light.c[3], vec3(1.0e-4));\n"
+                           "    vec3 along = light.c[1] * $0.x + light.c[2] * $0.y + light.c[3] * $0.z;\n",
+                           {direction}),
+                    "mean * (" + literal(constant) + " + " + scaled(slope, "along") + ")"};
+    }
+    return {};
 }
 
 std::string DirectionalLightmap::description() const {

@@ -3,6 +3,8 @@
 
 #include "core/math/kernels.h"
 #include "core/math/quadrature.h"
+#include "core/math/shader_pattern.h"
+#include "core/math/shader_text.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/basis/hemisphere_polynomials.cpp"
@@ -66,6 +68,59 @@ HWY_EXPORT(HorizonRows);
 
 namespace {
 
+/// The code of the sum of coefficients times combinations of the polynomials, row i of the matrix for coefficient i.
+ShaderCode polynomial_code(const std::vector<double>& matrix, const std::string& direction, const std::string& name) {
+    using shader_text::literal;
+    const auto count = static_cast<std::size_t>(std::lround(std::sqrt(static_cast<double>(matrix.size()))));
+    const std::string x = direction + ".x", y = direction + ".y", z = direction + ".z";
+    const double k0 = HemispherePolynomials::factor(0), k1 = HemispherePolynomials::factor(1),
+                 k2 = HemispherePolynomials::factor(2);
+    std::vector<std::string> weights;
+    for (std::size_t i = 0; i < count; ++i) {
+        // Turn the combination into one of the monomials 1, z, y, x, xy, x^2 - y^2.
+        const auto m = [&](std::size_t k) { return k < count ? matrix[i * count + k] : 0; };
+        const std::pair<double, std::string> terms[] = {
+            {k0 * m(0) - k1 * m(2), ""},
+            {2 * k1 * m(2), " * " + z},
+            {k1 * m(1), " * " + y},
+            {k1 * m(3), " * " + x},
+            {k2 * m(4), " * " + x + " * " + y},
+            {k2 * m(5) / 2, " * (" + x + " * " + x + " - " + y + " * " + y + ")"}};
+        std::string weight;
+        for (const auto& [factor, monomial] : terms) {
+            if (std::abs(factor) < 1e-7) continue;
+            weight += weight.empty() ? literal(factor) + monomial
+                                     : (factor < 0 ? " - " : " + ") + literal(std::abs(factor)) + monomial;
+        }
+        weights.push_back(weight.empty() ? "0.0" : weight);
+    }
+    return shader_text::sum_of(weights, name);
+}
+
+/// The code of the exact irradiance: that of 1, z, y, x, xy and x^2 - y^2 above the horizon.
+ShaderCode horizon_code(std::size_t count) {
+    using shader_text::filled, shader_text::literal;
+    const double k0 = HemispherePolynomials::factor(0), k1 = HemispherePolynomials::factor(1),
+                 k2 = HemispherePolynomials::factor(2);
+    std::vector<std::string> weights = {filled("$0 * flat_light", {literal(k0)}),
+                                        filled("$0 * rest * n.y", {literal(k1 * 2 / 3)}),
+                                        filled("$0 * upward - $1 * flat_light", {literal(k1 * 4 / 3), literal(k1)}),
+                                        filled("$0 * rest * n.x", {literal(k1 * 2 / 3)})};
+    if (count == 6) {
+        weights.push_back(filled("$0 * n.x * n.y", {literal(k2 * k_pi / 8)}));
+        weights.push_back(filled("$0 * (n.x * n.x - n.y * n.y)", {literal(k2 * k_pi / 16)}));
+    }
+    ShaderCode code = shader_text::sum_of(weights, "e");
+    code.statements = R"(    // What is above the horizon, seen from a normal that leans (Habel and Wimmer 2010).
+    float cosine = clamp(n.z, -1.0, 1.0);
+    float sine = sqrt(max(1.0 - cosine * cosine, 0.0));
+    float rest = 3.1415927 - acos(cosine);
+    float flat_light = 1.5707964 * cosine + 1.5707964;
+    float upward = rest * cosine + sine;
+)" + code.statements;
+    return code;
+}
+
 /// Exact irradiance of what is above the horizon.
 class ExactAboveHorizon final : public LinearEvaluator {
   public:
@@ -90,6 +145,8 @@ class ExactAboveHorizon final : public LinearEvaluator {
             for (std::size_t j = 0; j < block.size; ++j) rows[i * k_block_size + j] *= factors[i];
     }
 
+    [[nodiscard]] Result<ShaderCode> irradiance_code() const override { return horizon_code(size()); }
+
   private:
     HorizonIrradiance irradiance_;
 };
@@ -111,6 +168,10 @@ class Projected final : public LinearEvaluator {
         std::array<float, 6 * k_block_size> own;
         basis_.values(block, own.data());
         kernels::transform_rows(own.data(), size(), matrix_.data(), block.size, rows);
+    }
+
+    [[nodiscard]] Result<ShaderCode> irradiance_code() const override {
+        return polynomial_code({matrix_.begin(), matrix_.end()}, "n", "e");
     }
 
   private:
@@ -141,6 +202,8 @@ void HemispherePolynomials::values(DirectionView block, float* rows) const {
     const float k[] = {static_cast<float>(factor(0)), static_cast<float>(factor(1)), static_cast<float>(factor(2))};
     HWY_DYNAMIC_DISPATCH(PolynomialRows)(count_, k, block, rows);
 }
+
+Result<ShaderCode> HemispherePolynomials::radiance_code() const { return polynomial_code(gram(), "w", "sum"); }
 
 std::string HemispherePolynomials::description() const {
     return "H-basis: " + std::to_string(count_) + " polynomials orthonormal over the hemisphere";

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/basis/sh/sh_irradiance.h"
+#include "core/basis/sh/sh_shader.h"
 #include "core/basis/sh/sh_specular.h"
 #include "lobelia/bases.h"
 
@@ -23,6 +24,9 @@ class SphericalHarmonics final : public LinearBasis {
     void values_at(Vec3 direction, float* values) const override { harmonics_.values_at(direction, values); }
     [[nodiscard]] Rgb radiance_at(std::span<const Rgb> c, Vec3 direction) const override {
         return harmonics_.sum_at(c, ones_, direction);
+    }
+    [[nodiscard]] Result<ShaderCode> radiance_code() const override {
+        return sh_shader::sum_of_bands(std::vector<double>(ones_.begin(), ones_.end()), "w", "sum");
     }
     [[nodiscard]] std::string name() const override;
     [[nodiscard]] std::string description() const override;
