@@ -23,14 +23,13 @@ std::string coefficient(std::size_t i) { return "light.c[" + std::to_string(i) +
 
 namespace {
 
-/// Whether an expression needs brackets to be a factor: it adds or subtracts outside of brackets.
-bool is_sum(const std::string& expression) {
+/// Whether a scalar expression is computed before it is a factor: it has an operator outside of brackets.
+bool has_operator(const std::string& expression) {
     int depth = 0;
     for (std::size_t i = 0; i < expression.size(); ++i) {
         if (expression[i] == '(') ++depth;
         if (expression[i] == ')') --depth;
-        if (depth == 0 && i > 0 && expression[i - 1] == ' ' && (expression[i] == '+' || expression[i] == '-'))
-            return true;
+        if (depth == 0 && expression[i] == ' ') return true;
     }
     return false;
 }
@@ -41,7 +40,7 @@ ShaderCode sum_of(std::span<const std::string> weights, const std::string& name)
     ShaderCode code{{}, {}, name};
     for (std::size_t i = 0; i < weights.size(); ++i) {
         std::string term = coefficient(i);
-        if (weights[i] != "1.0") term += " * " + (is_sum(weights[i]) ? "(" + weights[i] + ")" : weights[i]);
+        if (weights[i] != "1.0") term += " * " + (has_operator(weights[i]) ? "(" + weights[i] + ")" : weights[i]);
         code.statements += "    " + ((i == 0 ? "vec3 " + name + " = " : name + " += ") + term) + ";\n";
     }
     return code;

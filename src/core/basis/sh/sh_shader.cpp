@@ -102,9 +102,8 @@ ShaderCode sum_of_bands(std::span<const double> factors, const std::string& dire
         for (std::size_t i = l * l; i < (l + 1) * (l + 1); ++i) {
             const std::size_t middle = l * l + l, m = i < middle ? middle - i : i - middle;
             const std::string weight = writer.harmonic(l, m, i >= middle, factors[l]);
-            const bool is_sum = m == 0 && l >= 2 && l % 2 == 0;
             sum += (sum.empty() ? "    vec3 " + name + " = " : "    " + name + " += ") + coefficient(i) + " * " +
-                   (is_sum ? "(" + weight + ")" : weight) + ";\n";
+                   (l > 0 ? "(" + weight + ")" : weight) + ";\n";
         }
     }
     return {{}, writer.declarations() + sum, name};
