@@ -228,29 +228,36 @@ void DirectionalLightmap::radiance(std::span<const Rgb> c, DirectionView directi
 
 ShaderCode DirectionalLightmap::code(const std::string& direction, double constant, double slope) const {
     using shader_text::filled, shader_text::literal;
-    const auto scaled = [&](double factor, const std::string& value) {
-        return factor == 1 ? value : literal(factor) + " * " + value;
-    };
+    // constant + slope along
+    const std::string linear =
+        literal(constant) + " + " + (slope == 1 ? "along" : filled("$0 * along", {literal(slope)}));
     switch (kind_) {
         case Kind::sh1h:
         case Kind::irradz:
+            return {{},
+                    filled(R"(    // Degree-1 harmonics ($1).
+    vec3 along = light.c[3] * $0.x + light.c[1] * $0.y + light.c[2] * $0.z;
+)",
+                           {direction, kind_ == Kind::sh1h ? "Ramamoorthi and Hanrahan 2001" : "Roughton et al. 2024"}),
+                    filled("$0 * light.c[0] + $1 * along",
+                           {literal(constant * k_constant_factor), literal(slope * k_slope_factor)})};
+        case Kind::enlighten:
             return {
                 {},
-                filled("    vec3 along = light.c[3] * $0.x + light.c[1] * $0.y + light.c[2] * $0.z;\n", {direction}),
-                literal(constant * k_constant_factor) + " * light.c[0] + " + literal(slope * k_slope_factor) +
-                    " * along"};
-        case Kind::enlighten:
-            return {{},
-                    filled("    vec3 mean = light.c[0] / max(1.0 + light.c[1].z, 1.0e-4);\n"
-                           "    float along = dot(light.c[1], $0);\n",
-                           {direction}),
-                    "mean * (" + literal(constant) + " + " + scaled(slope, "along") + ")"};
+                filled(
+                    R"(    // Irradiance at (0, 0, 1), and a direction D (Geomerics 2014): E(n) = E (1 + n . D) / (1 + D.z).
+    float along = dot(light.c[1], $0);
+)",
+                    {direction}),
+                filled("light.c[0] * (($0) / max(1.0 + light.c[1].z, 1.0e-4))", {linear})};
         case Kind::enlighten_rgb:
             return {{},
-                    filled("    vec3 mean = light.c[0] / max(1.0 + light.c[3], vec3(1.0e-4));\n"
-                           "    vec3 along = light.c[1] * $0.x + light.c[2] * $0.y + light.c[3] * $0.z;\n",
+                    filled(R"(    // Irradiance at (0, 0, 1), and a direction D (Geomerics 2014) for each channel:
+    // E(n) = E (1 + n . D) / (1 + D.z).
+    vec3 along = light.c[1] * $0.x + light.c[2] * $0.y + light.c[3] * $0.z;
+)",
                            {direction}),
-                    "mean * (" + literal(constant) + " + " + scaled(slope, "along") + ")"};
+                    filled("light.c[0] * ($0) / max(1.0 + light.c[3], vec3(1.0e-4))", {linear})};
     }
     return {};
 }

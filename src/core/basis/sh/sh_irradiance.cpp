@@ -106,7 +106,7 @@ class BandFactors final : public LinearEvaluator {
         return harmonics_.sum_at(c, float_factors_, normal);
     }
     [[nodiscard]] Result<ShaderCode> irradiance_code() const override {
-        return sh_shader::sum_of_bands(factors_, "n", "e");
+        return sh_shader::irradiance(factors_, reading_ == Reading::of_radiance ? "" : name_);
     }
 
   private:

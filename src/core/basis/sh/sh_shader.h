@@ -8,10 +8,11 @@
 
 namespace lobelia::sh_shader {
 
-/// The sum of light.c[l^2 + l + m] factors[l] Y_lm at `direction` ("w" or "n"), as the variable `name`. Bands whose
-/// factor is 0 are left out.
-[[nodiscard]] ShaderCode sum_of_bands(std::span<const double> factors, const std::string& direction,
-                                      const std::string& name);
+/// Radiance of the harmonics of degrees 0 to `degree`, light.c[l^2 + l + m] for Y_lm.
+[[nodiscard]] ShaderCode radiance(std::size_t degree);
+/// Irradiance, each band times its entry of `factors`; bands whose factor is 0 are left out. `window` is the name of
+/// the window that the factors contain, empty for none.
+[[nodiscard]] ShaderCode irradiance(std::span<const double> factors, const std::string& window);
 
 /// Irradiance of degree 1 by the model of Geomerics, and with ZH3's guess of degree 2.
 [[nodiscard]] ShaderCode geomerics();
@@ -19,7 +20,6 @@ namespace lobelia::sh_shader {
 
 /// Degree 1 and a zonal band 2, light.c[4], about the axis of the luminance or of each channel; `factors` of the bands.
 enum class ZonalAxisCode { of_luminance, of_channel };
-[[nodiscard]] ShaderCode zonal(std::span<const double> factors, ZonalAxisCode axis, const std::string& direction,
-                               const std::string& name);
+[[nodiscard]] ShaderCode zonal(std::span<const double> factors, ZonalAxisCode axis, const std::string& direction);
 
 }  // namespace lobelia::sh_shader

@@ -25,9 +25,7 @@ class SphericalHarmonics final : public LinearBasis {
     [[nodiscard]] Rgb radiance_at(std::span<const Rgb> c, Vec3 direction) const override {
         return harmonics_.sum_at(c, ones_, direction);
     }
-    [[nodiscard]] Result<ShaderCode> radiance_code() const override {
-        return sh_shader::sum_of_bands(std::vector<double>(ones_.begin(), ones_.end()), "w", "sum");
-    }
+    [[nodiscard]] Result<ShaderCode> radiance_code() const override { return sh_shader::radiance(harmonics_.degree()); }
     [[nodiscard]] std::string name() const override;
     [[nodiscard]] std::string description() const override;
     [[nodiscard]] Domain domain() const override { return Domain::sphere; }

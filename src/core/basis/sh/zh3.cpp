@@ -176,7 +176,7 @@ class Zh3Convolution final : public Evaluator {
         evaluate(functions_of(c, axis_, {k_pi, 2 * k_pi / 3, k_pi / 4}), normals, out);
     }
     [[nodiscard]] Result<ShaderCode> irradiance_code() const override {
-        return sh_shader::zonal(std::array{k_pi, 2 * k_pi / 3, k_pi / 4}, code_of(axis_), "n", "e");
+        return sh_shader::zonal(std::array{k_pi, 2 * k_pi / 3, k_pi / 4}, code_of(axis_), "n");
     }
 
   private:
@@ -247,7 +247,7 @@ void Zh3::radiance(std::span<const Rgb> c, DirectionView directions, MutableColo
 }
 
 Result<ShaderCode> Zh3::radiance_code() const {
-    return sh_shader::zonal(std::array{1.0, 1.0, 1.0}, code_of(axis_), "w", "sum");
+    return sh_shader::zonal(std::array{1.0, 1.0, 1.0}, code_of(axis_), "w");
 }
 
 std::string Zh3::description() const {
