@@ -1,7 +1,8 @@
-// ShaderParity: the shader code of every basis, evaluator and storage gives what the library gives. The Metal text is
-// compiled as C++ (write_shaders.cpp); the other languages are translated from the same source, word by word.
+// ShaderParity: the shader code of every basis, evaluator and storage gives what the library gives: Metal's text
+// compiled as C++, GLSL and HLSL on a Vulkan driver. WGSL is translated from the same source, word by word.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <map>
 #include <random>
@@ -10,8 +11,7 @@
 #include "lobelia/environment.h"
 #include "lobelia/sky.h"
 #include "lobelia/storage.h"
-#include "shade/shader.h"
-#include "shader_cases.h"
+#include "shader_runner.h"
 #include "support.h"
 
 namespace lobelia {
@@ -53,136 +53,182 @@ std::vector<std::vector<Rgb>> texels_of(const Encoder& encoder, std::size_t coun
     return texels;
 }
 
-std::shared_ptr<const Encoder> encoder_of(const std::string& basis) {
-    const auto made = make_basis(basis).value();
-    return make_encoder(encoder_names(*made).front(), made).value();
+/// The largest difference within each texel, relative to the largest value expected there; infinite where a value is
+/// NaN.
+std::vector<double> differences(std::span<const float> found, std::span<const float> expected, std::size_t texels) {
+    const std::size_t size = expected.size() / texels;
+    std::vector<double> result;
+    for (std::size_t i = 0; i < texels; ++i) {
+        double largest = 1e-30, off = 0;
+        for (std::size_t j = i * size; j < (i + 1) * size; ++j) {
+            largest = std::max(largest, std::abs(static_cast<double>(expected[j])));
+            const double error = std::abs(static_cast<double>(found[j]) - expected[j]);
+            off = error <= off ? off : std::isnan(error) ? HUGE_VAL : error;
+        }
+        result.push_back(off / largest);
+    }
+    return result;
 }
 
-double largest_of(const Colours& colours) {
-    double largest = 1e-30;
-    for (std::size_t k = 0; k < 3; ++k)
-        for (std::size_t j = 0; j < colours.size(); ++j)
-            largest = std::max(largest, std::abs(static_cast<double>(colours.channel(k)[j])));
-    return largest;
+/// The ways to run shader code.
+struct Runners {
+    Runners() {
+        for (const shade::Language language : {shade::Language::glsl, shade::Language::hlsl})
+            if (auto runner = test::VulkanRunner::open(language)) on_vulkan.push_back(std::move(runner).value());
+    }
+    /// Returns a column for each way: the difference of each texel.
+    std::vector<std::vector<double>> columns(const test::ShaderCase& shader, const test::ShaderInput& input,
+                                             const std::vector<float>& expected) {
+        std::vector<std::vector<double>> all = {
+            differences(test::run_msl_as_cpp(shader, input), expected, input.texels)};
+        for (auto& runner : on_vulkan) {
+            const auto found = runner->run(shader, input);
+            if (!found) ADD_FAILURE() << found.error().message;
+            all.push_back(found ? differences(*found, expected, input.texels) : std::vector<double>(input.texels));
+        }
+        return all;
+    }
+    std::vector<std::unique_ptr<test::VulkanRunner>> on_vulkan;
+};
+constexpr std::array k_columns = {"msl", "glsl", "hlsl"};
+
+/// What the library evaluates: texel by texel, direction by direction.
+std::vector<float> expected_of(const test::ShaderCase& shader, const Codec& codec,
+                               const std::vector<std::vector<Rgb>>& texels, DirectionView directions) {
+    std::vector<float> expected;
+    Colours values(directions.size);
+    for (const auto& c : texels) {
+        if (std::string_view(shader.function) == "irradiance")
+            codec.irradiance(c, directions, values);
+        else
+            codec.radiance(c, directions, values);
+        for (std::size_t j = 0; j < directions.size; ++j)
+            for (std::size_t k = 0; k < 3; ++k) expected.push_back(values.channel(k)[j]);
+    }
+    return expected;
 }
 
-double difference(const test::ShaderCase& shader, const std::vector<Rgb>& c, DirectionView directions,
-                  const Colours& expected) {
-    double worst = 0;
-    const double largest = largest_of(expected);
+test::ShaderInput input_of(const std::vector<std::vector<Rgb>>& texels, DirectionView directions) {
+    test::ShaderInput input;
+    input.texels = texels.size();
+    for (const auto& c : texels) input.values.insert(input.values.end(), &c[0].r, &c[0].r + 3 * c.size());
+    input.directions = directions.size;
     for (std::size_t j = 0; j < directions.size; ++j) {
         const Vec3 d = direction_at(directions, j);
-        float out[3];
-        shader.call(&c[0].r, &d.x, out);
-        for (std::size_t k = 0; k < 3; ++k) {
-            const double off = std::abs(static_cast<double>(out[k]) - expected.channel(k)[j]) / largest;
-            worst = off <= worst ? worst : off;  // a NaN becomes the worst
-        }
+        input.xyz.insert(input.xyz.end(), {d.x, d.y, d.z});
     }
-    return worst;
+    return input;
+}
+
+void print_row(const std::string& name, std::span<const double> worst) {
+    std::printf("%-48s", name.c_str());
+    for (const double value : worst) std::printf(" %8.1e", value);
+    std::printf("\n");
+}
+
+TEST(ShaderParity, VulkanRuns) {
+    const auto runner = test::VulkanRunner::open(shade::Language::glsl);
+    if (!runner) GTEST_SKIP() << "GLSL and HLSL are not run here: " << runner.error().message;
+    std::printf("%s\n", runner.value()->device().c_str());
 }
 
 TEST(ShaderParity, FunctionsGiveWhatTheLibraryGives) {
-    std::map<std::string, std::vector<std::vector<Rgb>>> texels;
+    Runners runners;
+    std::string basis;
+    std::vector<std::vector<Rgb>> texels;
+    std::printf("%-48s %8s %8s %8s\n", "", k_columns[0], k_columns[1], k_columns[2]);
     for (const test::ShaderCase& shader : test::shader_cases()) {
-        if (std::string_view(shader.function) == "unpack") continue;
-        const std::string basis = shader.basis;
-        const auto encoder = encoder_of(basis);
+        if (test::unpacks(shader)) continue;
+        const Codec codec = test::codec_of(shader);
         // Large maps of texels take long to sum up.
-        const bool large = encoder->basis().size() > 100;
-        if (!texels.contains(basis)) texels[basis] = texels_of(*encoder, large ? 4 : k_texels);
-        const Codec codec =
-            make_codec(basis + "/" + encoder_names(encoder->basis()).front() + "/" + shader.part).value();
-        const Directions directions = test::random_directions(encoder->basis().domain(), large ? 256 : k_normals, 9);
-        double worst = 0;
-        for (const auto& c : texels[basis]) {
-            Colours expected(directions.size());
-            if (std::string_view(shader.function) == "irradiance")
-                codec.irradiance(c, directions, expected);
-            else
-                codec.radiance(c, directions, expected);
-            const double off = difference(shader, c, directions, expected);
-            worst = off <= worst ? worst : off;
-            EXPECT_LT(off, allowed_for(encoder->basis(), c)) << basis << " " << shader.part << " " << shader.function;
+        const bool large = codec.basis().size() > 100;
+        if (std::exchange(basis, shader.basis) != shader.basis)
+            texels = texels_of(*codec.encoder(), large ? 4 : k_texels);
+        const Directions directions = test::random_directions(codec.basis().domain(), large ? 256 : k_normals, 9);
+        const auto columns =
+            runners.columns(shader, input_of(texels, directions), expected_of(shader, codec, texels, directions));
+        const std::string name = basis + " " + shader.part + " " + shader.function;
+        std::vector<double> worst;
+        for (std::size_t k = 0; k < columns.size(); ++k) {
+            worst.push_back(*std::max_element(columns[k].begin(), columns[k].end()));
+            for (std::size_t i = 0; i < texels.size(); ++i)
+                EXPECT_LT(columns[k][i], allowed_for(codec.basis(), texels[i])) << name << ", " << k_columns[k];
         }
-        std::printf("%-16s %-20s %-10s %.1e\n", shader.basis, shader.part, shader.function, worst);
+        print_row(name, worst);
     }
 }
 
-/// Values of a texture as graphics interfaces give them at one texel, four a texel, and the scale where the code asks
-/// for it.
+/// Appends the values of a texture as graphics interfaces give them at one texel, four a texel, and the scale where the
+/// code asks for it.
 void append_sampled(std::vector<float>& texel, const TextureLayout::Texture& layout, const PackedTexture& packed,
-                    std::size_t place) {
-    const FormatInfo& format = info(layout.format);
+                    std::span<const std::vector<float>> channels, std::size_t place) {
     float values[4] = {0, 0, 0, 1};
-    if (decode_function(layout.format)) {
-        for (std::size_t k = 0; k < 4; ++k)
+    const bool decoded_by_shader = decode_function(layout.format) != nullptr;
+    for (std::size_t k = 0; k < 4; ++k)
+        if (decoded_by_shader)
             values[k] = static_cast<float>(std::to_integer<int>(packed.data[4 * place + k])) / 255;
-        texel.insert(texel.end(), values, values + 4);
-        texel.push_back(packed.scale);
-        return;
-    }
-    std::vector<std::vector<float>> channels(format.channels, std::vector<float>(packed.width * packed.height));
-    std::vector<float*> pointers;
-    for (auto& channel : channels) pointers.push_back(channel.data());
-    decode_texels(layout.format, packed.width, packed.height, packed.data, pointers);
-    for (std::size_t k = 0; k < format.channels; ++k) values[k] = channels[k][place] * packed.scale;
+        else if (k < channels.size())
+            values[k] = channels[k][place] * packed.scale;
     texel.insert(texel.end(), values, values + 4);
+    if (decoded_by_shader) texel.push_back(packed.scale);
+}
+
+/// Returns the values of Texel at each place of a page.
+std::vector<float> sampled(const TextureLayout& layout, std::span<const PackedTexture> packed, std::size_t side) {
+    std::vector<std::vector<std::vector<float>>> decoded;
+    for (std::size_t t = 0; t < packed.size(); ++t) {
+        decoded.emplace_back(info(layout.textures[t].format).channels,
+                             std::vector<float>(packed[t].width * packed[t].height));
+        std::vector<float*> pointers;
+        for (auto& channel : decoded.back()) pointers.push_back(channel.data());
+        decode_texels(layout.textures[t].format, packed[t].width, packed[t].height, packed[t].data, pointers);
+    }
+    std::vector<float> values;
+    for (std::size_t i = 0; i < side * side; ++i)
+        for (std::size_t t = 0; t < packed.size(); ++t) {
+            const std::size_t step = layout.textures[t].subsampling, x = i % side / step, y = i / side / step;
+            append_sampled(values, layout.textures[t], packed[t], decoded[t], y * packed[t].width + x);
+        }
+    return values;
 }
 
 TEST(ShaderParity, UnpackingGivesWhatTheLibraryUnpacks) {
     constexpr std::size_t side = 8;
-    std::map<std::string_view, double> worst_of;
+    Runners runners;
+    std::map<std::string, std::vector<double>> worst_of;
+    std::map<std::string, std::vector<std::vector<Rgb>>> texels_by_encoder;
     for (const test::ShaderCase& shader : test::shader_cases()) {
-        if (std::string_view(shader.function) != "unpack") continue;
-        SCOPED_TRACE(std::string(shader.basis) + " " + shader.part);
-        const Storage& storage = *find_storage(shader.part).value();
-        const auto encoder =
-            make_encoder(test::encoder_for(shader.basis, storage), make_basis(shader.basis).value()).value();
-        const std::size_t planes = 3 * encoder->basis().size();
-        const auto texels = texels_of(*encoder, planes > 300 ? 4 : side * side);
-        const TextureLayout layout = storage.layout(coefficient_traits(*encoder));
+        if (!test::unpacks(shader)) continue;
+        const Codec codec = test::codec_of(shader);
+        const std::size_t planes = 3 * codec.basis().size();
+        auto& texels = texels_by_encoder[codec.name().basis + "/" + codec.name().encoder];
+        if (texels.empty()) texels = texels_of(*codec.encoder(), planes > 300 ? 4 : side * side);
+        const TextureLayout layout = find_storage(shader.part).value()->layout(coefficient_traits(*codec.encoder()));
 
         // Pack a page and unpack it again.
-        std::vector<std::vector<float>> page(planes, std::vector<float>(side * side)), expected = page;
+        std::vector<std::vector<float>> page(planes, std::vector<float>(side * side)), unpacked = page;
         for (std::size_t p = 0; p < planes; ++p)
             for (std::size_t i = 0; i < side * side; ++i) page[p][i] = (&texels[i % texels.size()][0].r)[p];
         const auto packed = pack(layout, CoefficientPlanes(side, side, std::span(page), planes / 3));
-        unpack(layout, packed, MutableCoefficientPlanes(side, side, std::span(expected), planes / 3));
+        unpack(layout, packed, MutableCoefficientPlanes(side, side, std::span(unpacked), planes / 3));
 
-        for (const std::size_t i : {0u, 9u, 27u, 63u}) {
-            std::vector<float> texel, out(planes);
-            for (std::size_t t = 0; t < packed.size(); ++t) {
-                const std::size_t step = layout.textures[t].subsampling, x = i % side / step, y = i / side / step;
-                append_sampled(texel, layout.textures[t], packed[t], y * packed[t].width + x);
+        test::ShaderInput input;
+        input.texels = side * side;
+        input.values = sampled(layout, packed, side);
+        input.results = planes;
+        std::vector<float> expected;
+        for (std::size_t i = 0; i < side * side; ++i)
+            for (std::size_t p = 0; p < planes; ++p) expected.push_back(unpacked[p][i]);
+        const auto columns = runners.columns(shader, input, expected);
+        auto& worst = worst_of[shader.part];
+        worst.resize(columns.size());
+        for (std::size_t k = 0; k < columns.size(); ++k)
+            for (const double off : columns[k]) {
+                EXPECT_LT(off, k_allowed) << shader.basis << " " << shader.part << ", " << k_columns[k];
+                worst[k] = std::max(worst[k], off);
             }
-            shader.call(nullptr, texel.data(), out.data());
-            double largest = 1e-30, off = 0;
-            for (std::size_t p = 0; p < planes; ++p) {
-                largest = std::max(largest, std::abs(static_cast<double>(expected[p][i])));
-                const double error = std::abs(static_cast<double>(out[p]) - expected[p][i]);
-                off = error <= off ? off : error;
-            }
-            EXPECT_LT(off / largest, k_allowed);
-            worst_of[shader.part] = std::max(worst_of[shader.part], off / largest);
-        }
     }
-    for (const auto& [storage, worst] : worst_of) std::printf("%-16s %.1e\n", std::string(storage).c_str(), worst);
-}
-
-TEST(ShaderParity, AWrongSignIsFound) {
-    // The difference of a texel and the same with the sign of one coefficient turned, by the same code.
-    for (const test::ShaderCase& shader : test::shader_cases()) {
-        if (std::string_view(shader.function) != "irradiance" || std::string_view(shader.basis) != "sh1") continue;
-        const auto encoder = encoder_of(shader.basis);
-        auto c = texels_of(*encoder, 1).front();
-        const Codec codec = make_codec(std::string("sh1/moments/") + shader.part).value();
-        const Directions directions = test::random_directions(Domain::sphere, 256, 9);
-        Colours expected(directions.size());
-        codec.irradiance(c, directions, expected);
-        c[1] = c[1] * -1.0f;
-        EXPECT_GT(difference(shader, c, directions, expected), 1e-2) << shader.part;
-    }
+    for (const auto& [storage, worst] : worst_of) print_row(storage, worst);
 }
 
 TEST(ShaderParity, EveryCodecHasCodeOrAReason) {

@@ -13,51 +13,17 @@
 namespace lobelia::shade {
 namespace {
 
-/// The codec of an evaluator with any encoder: the functions do not depend on that.
-Codec codec_of(const std::string& basis, const std::string& evaluator) {
-    const std::string encoder = encoder_names(*make_basis(basis).value()).front();
-    return make_codec(basis + "/" + encoder + "/" + evaluator).value();
-}
-
 class Writer {
   public:
-    /// Writes a text and a function `call(c, d, out)`, and enters it in the table; nothing for what has no code.
-    void function(const std::string& basis, const std::string& evaluator, Need need) {
-        const Codec codec = codec_of(basis, evaluator);
-        const auto text = shader_text(codec, {Language::msl, {need}, nullptr, std::nullopt});
+    /// Writes a text and a function `call`, and enters it in the table; nothing for a case without code.
+    void add(const test::ShaderCase& shader) {
+        const auto text = text_of(shader, Language::msl);
         if (!text) return;
-        const char* name = need == Need::irradiance ? "irradiance" : "radiance";
-        open(*text);
-        source_ += fmt::format(
-            "void call(const float* c, const float* d, float* out) {{\n"
-            "    Coefficients light;\n"
-            "    for (int i = 0; i < {}; ++i) light.c[i] = float3(c[3 * i], c[3 * i + 1], c[3 * i + 2]);\n"
-            "    const float3 value = {}(light, float3(d[0], d[1], d[2]));\n"
-            "    for (int k = 0; k < 3; ++k) out[k] = value[k];\n}}\n",
-            codec.basis().size(), name);
-        close(fmt::format("{{\"{}\", \"{}\", \"{}\", case_{}::call}}", basis, evaluator, name, count_));
-    }
-
-    /// The same for unpacking: d holds the values of a Texel in their order.
-    void unpacking(const std::string& basis, const Storage& storage) {
-        const std::string encoder = test::encoder_for(basis, storage);
-        if (encoder.empty()) return;
-        const std::string evaluator = make_basis(basis).value()->evaluator_names().front();
-        const Codec codec = make_codec(basis + "/" + encoder + "/" + evaluator).value();
-        const auto text = shader_text(codec, {Language::msl, {}, &storage, std::nullopt});
-        if (!text) return;
-        open(*text);
-        source_ += "void call(const float*, const float* d, float* out) {\n    Texel t;\n";
-        for (const auto& texture : storage.layout(coefficient_traits(*codec.encoder())).textures) {
-            source_ += fmt::format("    t.{} = float4(d[0], d[1], d[2], d[3]);\n    d += 4;\n", texture.name);
-            if (decode_function(texture.format)) source_ += fmt::format("    t.{}_scale = *d++;\n", texture.name);
-        }
-        source_ += fmt::format(
-            "    const Coefficients light = unpack(t);\n"
-            "    for (int i = 0; i < {}; ++i)\n"
-            "        for (int k = 0; k < 3; ++k) out[3 * i + k] = light.c[i][k];\n}}\n",
-            codec.basis().size());
-        close(fmt::format("{{\"{}\", \"{}\", \"unpack\", case_{}::call}}", basis, storage.name, count_));
+        static const std::regex number(R"((\b[0-9]+\.[0-9]+(e[-+]?[0-9]+)?))");
+        source_ += fmt::format("namespace case_{} {{\n{}\n{}}}\n\n", count_, std::regex_replace(*text, number, "$1f"),
+                               unpacks(shader) ? unpacking(shader) : evaluation(shader));
+        table_ += fmt::format("    {{\"{}\", \"{}\", \"{}\", case_{}::call}},\n", shader.basis, shader.part,
+                              shader.function, count_++);
     }
 
     [[nodiscard]] std::string result() const {
@@ -69,14 +35,30 @@ class Writer {
     }
 
   private:
-    void open(const std::string& text) {
-        static const std::regex number(R"((\b[0-9]+\.[0-9]+(e[-+]?[0-9]+)?))");
-        source_ += fmt::format("namespace case_{} {{\n{}\n", count_, std::regex_replace(text, number, "$1f"));
+    static std::string evaluation(const test::ShaderCase& shader) {
+        return fmt::format(
+            "void call(const float* c, const float* d, float* out) {{\n"
+            "    Coefficients light;\n"
+            "    for (int i = 0; i < {}; ++i) light.c[i] = float3(c[3 * i], c[3 * i + 1], c[3 * i + 2]);\n"
+            "    const float3 value = {}(light, float3(d[0], d[1], d[2]));\n"
+            "    for (int k = 0; k < 3; ++k) out[k] = value[k];\n}}\n",
+            codec_of(shader).basis().size(), shader.function);
     }
-    void close(const std::string& entry) {
-        source_ += "}\n\n";
-        table_ += "    " + entry + ",\n";
-        ++count_;
+
+    /// d holds the values of a Texel in their order.
+    static std::string unpacking(const test::ShaderCase& shader) {
+        const Codec codec = codec_of(shader);
+        const TextureLayout layout = find_storage(shader.part).value()->layout(coefficient_traits(*codec.encoder()));
+        std::string text = "void call(const float*, const float* d, float* out) {\n    Texel t;\n";
+        for (const auto& texture : layout.textures) {
+            text += fmt::format("    t.{} = float4(d[0], d[1], d[2], d[3]);\n    d += 4;\n", texture.name);
+            if (decode_function(texture.format)) text += fmt::format("    t.{}_scale = *d++;\n", texture.name);
+        }
+        return text + fmt::format(
+                          "    const Coefficients light = unpack(t);\n"
+                          "    for (int i = 0; i < {}; ++i)\n"
+                          "        for (int k = 0; k < 3; ++k) out[3 * i + k] = light.c[i][k];\n}}\n",
+                          codec.basis().size());
     }
 
     std::string source_, table_;
@@ -92,10 +74,12 @@ int main(int count, char** arguments) {
     shade::Writer writer;
     for (const auto& name : basis_names()) {
         const auto basis = make_basis(name).value();
-        for (const auto& evaluator : basis->evaluator_names())
-            writer.function(name, evaluator, shade::Need::irradiance);
-        writer.function(name, basis->evaluator_names().front(), shade::Need::radiance);
-        for (const Storage& storage : storages()) writer.unpacking(name, storage);
+        const auto evaluators = basis->evaluator_names();
+        for (const auto& evaluator : evaluators) writer.add({name.c_str(), evaluator.c_str(), "irradiance", nullptr});
+        writer.add({name.c_str(), evaluators.front().c_str(), "radiance", nullptr});
+        for (const Storage& storage : storages())
+            if (!test::encoder_for(name, storage).empty())
+                writer.add({name.c_str(), storage.name.data(), "unpack", nullptr});
     }
     std::ofstream file(arguments[1]);
     file << writer.result();
