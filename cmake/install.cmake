@@ -15,7 +15,7 @@ file(RELATIVE_PATH prefix_from_pkgconfig /prefix/${pkgconfig_folder} /prefix)
 
 set(bake_libraries "")
 if(TARGET lobelia_bake)
-  set(bake_libraries lobelia_bake lobelia_trace lobelia_scene lobelia_io)
+  set(bake_libraries lobelia_bake lobelia_shade lobelia_trace lobelia_scene lobelia_io)
 endif()
 set(installed_libraries lobelia_core ${bake_libraries} lobelia_c_static)
 

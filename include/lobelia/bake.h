@@ -160,6 +160,7 @@ struct WriteBakeOptions {
     std::optional<std::vector<std::string>> storages = {};  ///< of the textures; absent: default_storages()
     const Scene* scene = nullptr;                           ///< also write a copy of the scene and its environment
     std::string container = "ktx2";                         ///< file format of the textures
+    std::optional<std::vector<std::string>> exports = {};   ///< plain lightmaps besides, by name; absent: none
     const std::atomic<bool>* stop = nullptr;                ///< ends the writing early, with an error and no new file
 };
 

@@ -90,6 +90,7 @@ struct BakeJob {
     Precision precision = Precision::half;             ///< of the pages; full where half cannot hold their values
     std::optional<std::vector<std::string>> storages;  ///< of the textures; absent: default_storages()
     std::string container = "ktx2";                    ///< file format of the textures, and their extension
+    std::optional<std::vector<std::string>> exports;   ///< plain lightmaps besides, by name; absent: none
     ReportOptions report;
 };
 

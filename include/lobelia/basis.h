@@ -35,6 +35,10 @@ class Basis {
     virtual void radiance(std::span<const Rgb> c, DirectionView directions, MutableColourView out) const = 0;
     /// Evaluates one direction. The default evaluates a block of one; overrides are faster.
     [[nodiscard]] virtual Rgb radiance_at(std::span<const Rgb> c, Vec3 direction) const;
+    /// Returns the shader code of radiance(light, w). Errors: a basis that has none, with the reason.
+    [[nodiscard]] virtual Result<ShaderCode> radiance_code() const {
+        return Error{"basis " + name() + " has no shader code"};
+    }
     /// Returns this basis as a sum of functions, or as one fitted from a linear basis: exactly one of the two is not
     /// null.
     [[nodiscard]] virtual const LinearBasis* linear() const { return nullptr; }

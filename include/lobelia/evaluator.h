@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "lobelia/sample.h"
+#include "lobelia/shader_code.h"
 
 namespace lobelia {
 
@@ -74,6 +75,10 @@ class Evaluator {
     [[nodiscard]] virtual Negative negative() const { return Negative::kept; }
     /// Returns the weights e_i(n) with E = sum c_i e_i if the evaluator is linear in the coefficients; else null.
     [[nodiscard]] virtual const FunctionSet* weights() const { return nullptr; }
+    /// Returns the shader code of irradiance(light, n). Errors: an evaluator that has none, with the reason.
+    [[nodiscard]] virtual Result<ShaderCode> irradiance_code() const {
+        return Error{"evaluator " + name() + " has no shader code"};
+    }
 };
 
 /// An evaluator that is a vector of weights for each normal.

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "lobelia/planes.h"
+#include "lobelia/shader_code.h"
 
 namespace lobelia {
 
@@ -34,6 +35,9 @@ struct FormatInfo {
 };
 
 [[nodiscard]] const FormatInfo& info(PixelFormat format);
+/// Returns the shader function "vec3 decode_NAME(vec4 texel)" that decodes a texel as graphics interfaces give it in
+/// the vk_format, unfiltered; null if they give the channels.
+[[nodiscard]] const ShaderFunction* decode_function(PixelFormat format);
 /// All formats, in the order of the list.
 [[nodiscard]] std::span<const PixelFormat> pixel_formats();
 

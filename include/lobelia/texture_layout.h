@@ -10,6 +10,7 @@
 
 #include "lobelia/pixel_format.h"
 #include "lobelia/result.h"
+#include "lobelia/shader_code.h"
 
 namespace lobelia {
 
@@ -91,5 +92,17 @@ using TakeTexture = std::function<Status(const TextureLayout::Texture& texture, 
 
 /// Unpacks textures of this layout; sub-sampled ones are sampled at the nearest texel.
 void unpack(const TextureLayout& layout, std::span<const PackedTexture> textures, const MutableCoefficientPlanes& out);
+
+/// Shader code that unpacks the textures of a layout at one place.
+struct UnpackCode {
+    std::vector<ShaderFunction> functions;  ///< functions that `body` calls
+    std::string texel;                      ///< struct Texel, sampled values, with a comment for each texture
+    std::string body;                       ///< statements of Coefficients unpack(Texel t), the last one returns
+};
+
+/// Writes the code. Texel has a vec4 with the name of each texture: sampled values times the texture's scale (field
+/// "scale" of bake.json). For formats with a decode_function() it is the sampled value alone, without filtering, and a
+/// float NAME_scale follows it, which is to be that scale.
+[[nodiscard]] UnpackCode unpack_code(const TextureLayout& layout);
 
 }  // namespace lobelia

@@ -16,6 +16,7 @@
 #include "bake/solve/solve.h"
 #include "bake/with_threads.h"
 #include "bake/write/bake_folder.h"
+#include "bake/write/lightmap_exports.h"
 #include "bake/write/manifest.h"
 #include "bake/write/page_textures.h"
 #include "io/staged_file.h"
@@ -40,6 +41,7 @@ void warn(Bake& bake, const BakeSession& session, const std::string& text) {
 }
 
 Status check_textures(const BakeJob& job) {
+    if (const auto exports = find_lightmap_exports(job.exports); !exports) return exports.error();
     const auto textures = PageTextures::make(job.bake.codec, job.storages, job.container);
     return textures ? Status(Done{}) : textures.error();
 }
@@ -173,7 +175,8 @@ Status write(BakeWork& work, const BakeJob& job, const BakeSession& session, con
     if (session.folder.empty()) return Done{};
     FilesTogether files(session.lock, session.stop);
     if (Status status = prepare(files); !status) return status;
-    auto manifest = write_bake(std::move(files), work.bake, {job.storages, work.setup->scene, job.container});
+    auto manifest =
+        write_bake(std::move(files), work.bake, {job.storages, work.setup->scene, job.container, job.exports});
     if (!manifest) return manifest.error();
     for (std::size_t i = work.bake.manifest.warnings.size(); i < manifest->warnings.size() && session.warn; ++i)
         session.warn(manifest->warnings[i]);

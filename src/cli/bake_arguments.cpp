@@ -108,6 +108,7 @@ Result<BakeJob> job_of(const BakeArguments& a) {
     job.probes = *probes;
     job.precision = a.precision == "half" ? Precision::half : Precision::full;
     job.storages = *storages;
+    if (!a.exports.empty()) job.exports = a.exports;
     job.report.write = off_if(a.no_report);
     job.report.width = picture->width;
     job.report.height = picture->height;

@@ -2,6 +2,7 @@
 #include "cli/bake_options.h"
 
 #include "bake/check_job.h"
+#include "bake/write/lightmap_exports.h"
 #include "cli/common.h"
 #include "cli/lobe_files.h"
 #include "cli/options.h"
@@ -23,7 +24,7 @@ class Group {
   public:
     Group(CLI::App& command, const char* name) : command_(command), name_(name) {}
     template <class T>
-    CLI::Option* option(const char* names, T& value, const char* text) {
+    CLI::Option* option(const char* names, T& value, const std::string& text) {
         return command_.add_option(names, value, text)->group(name_);
     }
     /// An option whose default is shown.
@@ -136,6 +137,13 @@ std::vector<std::string> container_names() {
     return names;
 }
 
+std::string export_list() {
+    std::string list;
+    for (const LightmapExport& entry : lightmap_exports())
+        list += fmt::format("{}{}, {}", list.empty() ? "" : "; ", entry.name, entry.description);
+    return list;
+}
+
 void add_output_options(CLI::App& command, BakeArguments& a) {
     Group group(command, "Output");
     group.option("-o,--out", a.out, "Output folder")->required();
@@ -146,6 +154,10 @@ void add_output_options(CLI::App& command, BakeArguments& a) {
                 "(default: float16, and ratio8 where it is usable)")
         ->allow_extra_args(false);
     group.choice("--container", a.job.container, container_names(), "File format of the textures");
+    group
+        .option("--export", a.exports,
+                "Also write plain lightmaps for other programs: " + export_list() + "; repeatable")
+        ->allow_extra_args(false);
     group.flag("--no-report,--no-page", a.no_report, "Do not make the HTML report");
     group.with_default("--picture-size", a.picture_size, "Size of the report's pictures, WxH");
     group.with_default("--picture-samples", a.job.report.samples, "Samples per pixel of the report's pictures")

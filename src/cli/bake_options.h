@@ -21,7 +21,7 @@ struct BakeArguments {
     std::string size = "512x512", picture_size = "640x400", memory = "2G";
     std::string frame = "world", directions = "uniform", layout = "automatic", precision = "half", shard_by = "tiles";
     std::string shard, probe_box, rebake_object;
-    std::vector<std::string> storages;
+    std::vector<std::string> storages, exports;
     std::uint32_t add_samples = 0;
     bool resume = false, plain = false, preflight = false;
     bool no_denoise = false, no_seams = false, no_dilate = false, no_push_out = false, no_report = false;

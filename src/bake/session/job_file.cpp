@@ -95,6 +95,7 @@ void fields(auto& archive, BakeJob& job) {
     archive.choice("precision", job.precision, k_precision_names);
     archive.texts("storages", job.storages);
     archive.text("container", job.container);
+    archive.texts("exports", job.exports);
     archive.group("report", job.report);
 }
 

@@ -9,11 +9,13 @@
 
 #include "bake/write/bake_fields.h"
 #include "bake/write/bake_files.h"
+#include "bake/write/lightmap_exports.h"
 #include "bake/write/manifest.h"
 #include "bake/write/page_files.h"
 #include "bake/write/page_textures.h"
 #include "bake/write/probe_files.h"
 #include "bake/write/scene_copy.h"
+#include "bake/write/shader_files.h"
 #include "core/math/half.h"
 #include "io/texture/container.h"
 #include "lobelia/bake.h"
@@ -105,6 +107,7 @@ Status add_scene(FilesTogether& files, const Scene& scene, Manifest& manifest) {
 bool is_name_of_bake(std::string_view name) {
     for (const char* each : {k_scene_name, k_environment_name, k_probes_name, k_probe_coefficients_name})
         if (name == each) return true;
+    if (is_name_of_shader(name)) return true;
     const auto containers = texture_containers();
     return name.starts_with("page-") &&
            (name.ends_with(".exr") || std::any_of(containers.begin(), containers.end(), [&](const auto& container) {
@@ -154,10 +157,14 @@ Result<Manifest> write_bake(FilesTogether files, const Bake& bake, const WriteBa
     assert(bake.pages.size() == bake.normals.size());
     const auto textures = PageTextures::make(bake.manifest.options.codec, options.storages, options.container);
     if (!textures) return textures.error();
+    const auto exports = find_lightmap_exports(options.exports);
+    if (!exports) return exports.error();
     Manifest manifest = bake.manifest;
     const std::size_t others = files.entries().size();
     auto status = choose_precision(bake, manifest);
     if (status) status = add_pages(files, bake, *textures, manifest);
+    if (status) status = add_exports(files, bake, *exports, manifest);
+    if (status) status = add_shaders(files, textures->storages(), manifest);
     if (status) status = add_probes(files, bake, manifest);
     if (status && options.scene != nullptr) status = add_scene(files, *options.scene, manifest);
     manifest.files.assign(files.entries().begin() + static_cast<std::ptrdiff_t>(others), files.entries().end());

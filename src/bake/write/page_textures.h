@@ -22,6 +22,8 @@ class PageTextures {
                                                    const std::optional<std::vector<std::string>>& storages,
                                                    std::string_view container);
 
+    [[nodiscard]] const std::vector<const Storage*>& storages() const { return storages_; }
+
     /// Writes page-N.STORAGE.TEXTURE.CONTAINER and page-N.validity.CONTAINER, packed one at a time, and enters them in
     /// `entry`, whose page file has a name already. `origin` goes into the files' metadata: codec and frame.
     [[nodiscard]] Status add(FilesTogether& files, const LightmapPage& page, const std::string& origin,

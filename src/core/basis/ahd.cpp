@@ -6,6 +6,7 @@
 
 #include "core/basis/sh/spherical_harmonics.h"
 #include "core/math/harmonics_degree_2.h"
+#include "core/math/shader_text.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/basis/ahd.cpp"
@@ -137,6 +138,12 @@ class Punctual final : public Evaluator {
         HWY_DYNAMIC_DISPATCH(HighlightRows)
         (c[0] * static_cast<float>(k_pi), c[1], {c[2].r, c[2].g, c[2].b}, 0, normals, out);
     }
+    [[nodiscard]] Result<ShaderCode> irradiance_code() const override {
+        return ShaderCode{{},
+                          "    // Ambient radiance, and a highlight of irradiance c[1] from the direction c[2].\n"
+                          "    float highlight = max(dot(n, light.c[2]), 0.0);\n",
+                          shader_text::literal(k_pi) + " * light.c[0] + light.c[1] * highlight"};
+    }
 };
 
 }  // namespace
@@ -173,6 +180,17 @@ void AmbientHighlight::radiance(std::span<const Rgb> c, DirectionView directions
     check_evaluation(k_coefficients, c, directions, out);
     HWY_DYNAMIC_DISPATCH(HighlightRows)
     (c[0], c[1] * k_lobe_factor, {c[2].r, c[2].g, c[2].b}, k_squarings, directions, out);
+}
+
+Result<ShaderCode> AmbientHighlight::radiance_code() const {
+    ShaderCode code{{}, "    // Spread the highlight over a lobe, the cosine to the power of 8.\n", {}};
+    std::string power = "max(dot(w, light.c[2]), 0.0)";
+    for (const std::string name : {"cosine", "power_2", "power_4"}) {
+        code.statements += "    float " + name + " = " + power + ";\n";
+        power = name + " * " + name;
+    }
+    code.result = "light.c[0] + light.c[1] * (" + shader_text::literal(k_lobe_factor) + " * " + power + ")";
+    return code;
 }
 
 std::string AmbientHighlight::description() const { return "ambient light and one directional light"; }

@@ -19,6 +19,7 @@ class AmbientHighlight final : public FittedBasis {
     }
     /// A directional light has no radiance to show: it is spread over a lobe, H (m + 1) / 2 pi max(0, w . d)^m, m = 8.
     void radiance(std::span<const Rgb> c, DirectionView directions, MutableColourView out) const override;
+    [[nodiscard]] Result<ShaderCode> radiance_code() const override;
     [[nodiscard]] std::shared_ptr<const LinearBasis> accumulated() const override;
     /// The least error of E over all normals: the direction by search, c_0 and H by non-negative least squares.
     void fit(std::span<const Rgb> accumulated, std::span<Rgb> c) const override;

@@ -1,9 +1,11 @@
 // Six irradiances: the fit to E by its moments, and the interpolation by squares.
 #include "core/basis/ambient_cube_irradiance.h"
 
+#include "core/basis/cosine_lobes_shader.h"
 #include "core/basis/sh/spherical_harmonics.h"
 #include "core/math/harmonics_degree_2.h"
 #include "core/math/least_squares.h"
+#include "core/math/shader_text.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/basis/ambient_cube_irradiance.cpp"
@@ -55,6 +57,10 @@ void read_sides(std::span<const Rgb> c, const Rotation& cube, float scale, Direc
     HWY_DYNAMIC_DISPATCH(SidesRows)(c.data(), cube, scale, normals, out);
 }
 
+std::array<Vec3, 6> sides_of(const Rotation& cube) {
+    return {cube[0], cube[0] * -1.0f, cube[1], cube[1] * -1.0f, cube[2], cube[2] * -1.0f};
+}
+
 class Squares final : public Evaluator {
   public:
     explicit Squares(const Rotation& cube_from_domain) : cube_from_domain_(cube_from_domain) {}
@@ -64,6 +70,9 @@ class Squares final : public Evaluator {
     }
     void signed_irradiance(std::span<const Rgb> c, DirectionView normals, MutableColourView out) const override {
         read_sides(c, cube_from_domain_, 1, normals, out);
+    }
+    [[nodiscard]] Result<ShaderCode> irradiance_code() const override {
+        return cosine_lobes::sum_of_squares(sides_of(cube_from_domain_), "n", "e");
     }
 
   private:
@@ -108,6 +117,12 @@ void AmbientCubeIrradiance::fit(std::span<const Rgb> accumulated, std::span<Rgb>
 
 void AmbientCubeIrradiance::radiance(std::span<const Rgb> c, DirectionView directions, MutableColourView out) const {
     read_sides(c, cube_from_domain_, k_over_pi, directions, out);
+}
+
+Result<ShaderCode> AmbientCubeIrradiance::radiance_code() const {
+    ShaderCode code = cosine_lobes::sum_of_squares(sides_of(cube_from_domain_), "w", "sum");
+    code.result = shader_text::literal(k_over_pi) + " * sum";
+    return code;
 }
 
 std::string AmbientCubeIrradiance::description() const {

@@ -16,6 +16,7 @@ class AmbientCubeIrradiance final : public FittedBasis {
     [[nodiscard]] std::size_t size() const override { return 6; }
     /// Evaluates radiance as E / pi in that direction, because the coefficients do not determine it.
     void radiance(std::span<const Rgb> c, DirectionView directions, MutableColourView out) const override;
+    [[nodiscard]] Result<ShaderCode> radiance_code() const override;
     [[nodiscard]] std::shared_ptr<const LinearBasis> accumulated() const override;
     /// The least error of E over all normals with c >= 0.
     void fit(std::span<const Rgb> accumulated, std::span<Rgb> c) const override;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "core/basis/ambient_dice_shader.h"
 #include "core/basis/icosahedron.h"
 #include "core/basis/turned_block.h"
 #include "core/math/dense.h"
@@ -155,7 +156,8 @@ SphereRule face_rule() {
     return result;
 }
 
-constexpr std::size_t k_degree = 8;
+using dice::Chroma;
+using dice::k_degree;
 
 /// Integrals that are computed once, in the frame of the dice.
 struct Tables {
@@ -208,7 +210,6 @@ Expanded expanded(std::span<const Rgb> c) {
 /// E(n) = sum A_l L_lm Y_lm(n), L_lm the harmonic coefficients of the radiance.
 class DiceConvolution final : public Evaluator {
   public:
-    enum class Chroma { patches, linear };
     DiceConvolution(Chroma chroma, const Rotation& dice_from_domain)
         : chroma_(chroma), dice_from_domain_(dice_from_domain) {}
     [[nodiscard]] std::string name() const override { return "convolution"; }
@@ -219,6 +220,14 @@ class DiceConvolution final : public Evaluator {
         for_each_part(normals, k_block_size, [&](DirectionView block, std::size_t begin) {
             harmonics_.sum(e, TurnedBlock(block, dice_from_domain_).view(), out.part(begin, block.size));
         });
+    }
+    [[nodiscard]] Result<ShaderCode> irradiance_code() const override {
+        const auto row = [](std::size_t i) {
+            constexpr std::size_t size = harmonics::coefficient_count(k_degree);
+            return std::span(tables().irradiance).subspan(i * size, size);
+        };
+        return dice::convolution_code(chroma_, {row(0), row(1), row(2), row(k_functions), tangents_at},
+                                      dice_from_domain_);
     }
 
   private:
@@ -277,6 +286,10 @@ void AmbientDice::values(DirectionView block, float* rows) const {
     }
 }
 
+Result<ShaderCode> AmbientDice::radiance_code() const {
+    return dice::radiance_code(Chroma::patches, dice_from_domain_);
+}
+
 std::string AmbientDice::description() const {
     return "ambient dice: values and slopes at the vertices of an icosahedron, Bezier patches between";
 }
@@ -296,7 +309,7 @@ std::vector<double> AmbientDice::integrals() const {
 
 std::shared_ptr<const Evaluator> AmbientDice::evaluator(std::string_view name) const {
     if (name != "convolution") return nullptr;
-    return std::make_shared<DiceConvolution>(DiceConvolution::Chroma::patches, dice_from_domain_);
+    return std::make_shared<DiceConvolution>(Chroma::patches, dice_from_domain_);
 }
 
 Basis::Rotated AmbientDice::rotated(const Rotation& r, std::span<const Rgb> c) const {
@@ -321,6 +334,10 @@ void AmbientDiceYCoCg::radiance(std::span<const Rgb> c, DirectionView directions
         }
         set_entry(out, j, radiance);
     }
+}
+
+Result<ShaderCode> AmbientDiceYCoCg::radiance_code() const {
+    return dice::radiance_code(Chroma::linear, dice_->dice_from_domain());
 }
 
 void AmbientDiceYCoCg::fit(std::span<const Rgb> accumulated, std::span<Rgb> c) const {
@@ -349,7 +366,7 @@ std::string AmbientDiceYCoCg::description() const {
 
 std::shared_ptr<const Evaluator> AmbientDiceYCoCg::evaluator(std::string_view name) const {
     if (name != "convolution") return nullptr;
-    return std::make_shared<DiceConvolution>(DiceConvolution::Chroma::linear, dice_->dice_from_domain());
+    return std::make_shared<DiceConvolution>(Chroma::linear, dice_->dice_from_domain());
 }
 
 Basis::Rotated AmbientDiceYCoCg::rotated(const Rotation& r, std::span<const Rgb> c) const {

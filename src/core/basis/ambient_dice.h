@@ -19,6 +19,7 @@ class AmbientDice final : public LinearBasis {
 
     [[nodiscard]] std::size_t size() const override { return 36; }
     void values(DirectionView block, float* rows) const override;
+    [[nodiscard]] Result<ShaderCode> radiance_code() const override;
     [[nodiscard]] std::string name() const override { return "dice-bezier"; }
     [[nodiscard]] std::string description() const override;
     [[nodiscard]] Domain domain() const override { return Domain::sphere; }
@@ -46,6 +47,7 @@ class AmbientDiceYCoCg final : public FittedBasis {
 
     [[nodiscard]] std::size_t size() const override { return 20; }
     void radiance(std::span<const Rgb> c, DirectionView directions, MutableColourView out) const override;
+    [[nodiscard]] Result<ShaderCode> radiance_code() const override;
     [[nodiscard]] std::shared_ptr<const LinearBasis> accumulated() const override { return dice_; }
     void fit(std::span<const Rgb> accumulated, std::span<Rgb> c) const override;
     [[nodiscard]] std::string name() const override { return "dice-ycocg"; }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <span>
 
+#include "core/basis/cosine_lobes_shader.h"
 #include "core/basis/icosahedron.h"
 #include "core/math/kernels.h"
 #include "core/math/quadrature.h"
@@ -108,15 +109,17 @@ void fill_rows(const std::vector<Vec3>& axes, const Coefficients& k, float low, 
 class ExactCosineLobes final : public LinearEvaluator {
   public:
     ExactCosineLobes(CosineLobe lobe, std::vector<Vec3> axes)
-        : polynomial_(irradiance_polynomial(lobe)), axes_(std::move(axes)) {}
+        : lobe_(lobe), polynomial_(irradiance_polynomial(lobe)), axes_(std::move(axes)) {}
     [[nodiscard]] std::string name() const override { return "exact"; }
     [[nodiscard]] Accuracy accuracy() const override {
         return {"everywhere", "1e-6 of the largest E (float32 rounding)"};
     }
     [[nodiscard]] std::size_t size() const override { return axes_.size(); }
     void values(DirectionView block, float* rows) const override { fill_rows(axes_, polynomial_, -2, block, rows); }
+    [[nodiscard]] Result<ShaderCode> irradiance_code() const override { return cosine_lobes::exact_code(lobe_, axes_); }
 
   private:
+    CosineLobe lobe_;
     Coefficients polynomial_;
     std::vector<Vec3> axes_;
 };
@@ -130,6 +133,7 @@ class Shares final : public FunctionSet {
         fill_rows(axes_, {0, 0, 1, 0, 0}, 0, block, rows);
         HWY_DYNAMIC_DISPATCH(NormaliseRows)(rows, size(), block.size);
     }
+    [[nodiscard]] std::span<const Vec3> axes() const { return axes_; }
 
   private:
     std::vector<Vec3> axes_;
@@ -166,6 +170,9 @@ class SquaredCosines final : public LinearEvaluator {
         check_equal("coefficients", c.size(), size());
         const AtAxes at_axes = irradiance_at_axes(c);
         return evaluate(shares_, std::span(at_axes).first(size()), normal);
+    }
+    [[nodiscard]] Result<ShaderCode> irradiance_code() const override {
+        return cosine_lobes::squares_code(shares_.axes());
     }
 
   private:
@@ -249,6 +256,8 @@ Result<std::shared_ptr<const Basis>> CosineLobes::from_name(std::string_view nam
 void CosineLobes::values(DirectionView block, float* rows) const {
     fill_rows(axes_, {0, 0, kind_.lobe.square, 0, kind_.lobe.fourth}, 0, block, rows);
 }
+
+Result<ShaderCode> CosineLobes::radiance_code() const { return cosine_lobes::radiance_code(kind_.lobe, axes_); }
 
 Matrix CosineLobes::gram() const {
     Matrix g(size() * size());

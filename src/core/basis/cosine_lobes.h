@@ -36,6 +36,7 @@ class CosineLobes final : public LinearBasis {
 
     [[nodiscard]] std::size_t size() const override { return axes_.size(); }
     void values(DirectionView block, float* rows) const override;
+    [[nodiscard]] Result<ShaderCode> radiance_code() const override;
     [[nodiscard]] std::string name() const override { return std::string(kind_.name); }
     [[nodiscard]] std::string description() const override { return std::string(kind_.description); }
     [[nodiscard]] Domain domain() const override { return kind_.domain; }

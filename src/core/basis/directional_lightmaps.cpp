@@ -7,6 +7,8 @@
 #include "core/math/dense.h"
 #include "core/math/harmonics_degree_2.h"
 #include "core/math/quadrature.h"
+#include "core/math/shader_pattern.h"
+#include "core/math/shader_text.h"
 #include "core/math/zonal_quadratic.h"
 
 namespace lobelia {
@@ -112,6 +114,7 @@ class LinearInNormal final : public Evaluator {
                              static_cast<float>(e[k].slope[2])}};
         evaluate(functions, normals, out);
     }
+    [[nodiscard]] Result<ShaderCode> irradiance_code() const override { return basis_.code("n", 1, 1); }
 
   private:
     DirectionalLightmap basis_;
@@ -221,6 +224,42 @@ void DirectionalLightmap::radiance(std::span<const Rgb> c, DirectionView directi
         functions[k] = {static_cast<float>(e[k].constant / k_pi),
                         {slope(e[k].slope[0]), slope(e[k].slope[1]), slope(e[k].slope[2])}};
     evaluate(functions, directions, out);
+}
+
+ShaderCode DirectionalLightmap::code(const std::string& direction, double constant, double slope) const {
+    using shader_text::filled, shader_text::literal;
+    // constant + slope along
+    const std::string linear =
+        literal(constant) + " + " + (slope == 1 ? "along" : filled("$0 * along", {literal(slope)}));
+    switch (kind_) {
+        case Kind::sh1h:
+        case Kind::irradz:
+            return {{},
+                    filled(R"(    // Degree-1 harmonics ($1).
+    vec3 along = light.c[3] * $0.x + light.c[1] * $0.y + light.c[2] * $0.z;
+)",
+                           {direction, kind_ == Kind::sh1h ? "Ramamoorthi and Hanrahan 2001" : "Roughton et al. 2024"}),
+                    filled("$0 * light.c[0] + $1 * along",
+                           {literal(constant * k_constant_factor), literal(slope * k_slope_factor)})};
+        case Kind::enlighten:
+            return {
+                {},
+                filled(
+                    R"(    // Irradiance at (0, 0, 1), and a direction D (Geomerics 2014): E(n) = E (1 + n . D) / (1 + D.z).
+    float along = dot(light.c[1], $0);
+)",
+                    {direction}),
+                filled("light.c[0] * (($0) / max(1.0 + light.c[1].z, 1.0e-4))", {linear})};
+        case Kind::enlighten_rgb:
+            return {{},
+                    filled(R"(    // Irradiance at (0, 0, 1), and a direction D (Geomerics 2014) for each channel:
+    // E(n) = E (1 + n . D) / (1 + D.z).
+    vec3 along = light.c[1] * $0.x + light.c[2] * $0.y + light.c[3] * $0.z;
+)",
+                           {direction}),
+                    filled("light.c[0] * ($0) / max(1.0 + light.c[3], vec3(1.0e-4))", {linear})};
+    }
+    return {};
 }
 
 std::string DirectionalLightmap::description() const {

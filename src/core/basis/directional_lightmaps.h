@@ -63,6 +63,10 @@ class DirectionalLightmap final : public FittedBasis {
     /// without a mean, or store ratios already.
     [[nodiscard]] std::vector<float> lead_bounds() const override;
 
+    [[nodiscard]] Result<ShaderCode> radiance_code() const override { return code("w", 1 / k_pi, 3 / (2 * k_pi)); }
+    /// The shader code of constant e0 + slope e . direction, of the E(n) = e0 + e . n that the coefficients have.
+    [[nodiscard]] ShaderCode code(const std::string& direction, double constant, double slope) const;
+
     /// E of each channel as the coefficients have it.
     [[nodiscard]] std::array<LinearIrradiance, 3> irradiance(std::span<const Rgb> c) const;
 

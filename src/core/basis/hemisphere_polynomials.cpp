@@ -1,8 +1,11 @@
-// The H-basis: values, irradiance above the horizon, rotation about the normal.
+// The H-basis: values, irradiance above the horizon, rotation about the normal. Abramowitz and Stegun 1964 (the arc
+// cosine of the shader code).
 #include "core/basis/hemisphere_polynomials.h"
 
 #include "core/math/kernels.h"
 #include "core/math/quadrature.h"
+#include "core/math/shader_pattern.h"
+#include "core/math/shader_text.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/basis/hemisphere_polynomials.cpp"
@@ -66,6 +69,71 @@ HWY_EXPORT(HorizonRows);
 
 namespace {
 
+/// The code of the sum of coefficients times combinations of the polynomials, row i of the matrix for coefficient i.
+ShaderCode polynomial_code(const std::vector<double>& matrix, const std::string& direction, const std::string& name) {
+    using shader_text::literal;
+    const auto count = static_cast<std::size_t>(std::lround(std::sqrt(static_cast<double>(matrix.size()))));
+    const std::string x = direction + ".x", y = direction + ".y", z = direction + ".z";
+    const double k0 = HemispherePolynomials::factor(0), k1 = HemispherePolynomials::factor(1),
+                 k2 = HemispherePolynomials::factor(2);
+    std::vector<std::string> weights;
+    for (std::size_t i = 0; i < count; ++i) {
+        // Turn the combination into one of the monomials z, 1, y, x, xy, x^2 - y^2.
+        const auto m = [&](std::size_t k) { return k < count ? matrix[i * count + k] : 0; };
+        const std::pair<double, std::string> terms[] = {
+            {2 * k1 * m(2), " * " + z},
+            {k0 * m(0) - k1 * m(2), ""},
+            {k1 * m(1), " * " + y},
+            {k1 * m(3), " * " + x},
+            {k2 * m(4), " * " + x + " * " + y},
+            {k2 * m(5) / 2, " * (" + x + " * " + x + " - " + y + " * " + y + ")"}};
+        std::string weight;
+        for (const auto& [factor, monomial] : terms) {
+            if (std::abs(factor) < 1e-7) continue;
+            weight += weight.empty() ? literal(factor) + monomial
+                                     : (factor < 0 ? " - " : " + ") + literal(std::abs(factor)) + monomial;
+        }
+        weights.push_back(weight.empty() ? "0.0" : weight);
+    }
+    return shader_text::sum_of(weights, name);
+}
+
+/// An arc cosine of its own: those of Mesa and of AMD are off by up to 1.6e-4.
+constexpr std::string_view k_arc_cosine =
+    R"(/// Returns the arc cosine, within 1e-6 (Abramowitz and Stegun 1964, 4.4.46).
+float arc_cosine(float cosine) {
+    float x = min(abs(cosine), 1.0);
+    float p = 0.0308918810 + x * (-0.0170881256 + x * (0.0066700901 - x * 0.0012624911));
+    p = 1.5707963050 + x * (-0.2145988016 + x * (0.0889789874 + x * (-0.0501743046 + x * p)));
+    float angle = sqrt(1.0 - x) * p;
+    return choose(cosine < 0.0, 3.1415927 - angle, angle);
+}
+)";
+
+/// The code of the exact irradiance: that of 1, z, y, x, xy and x^2 - y^2 above the horizon.
+ShaderCode horizon_code(std::size_t count) {
+    using shader_text::filled, shader_text::literal;
+    const double k0 = HemispherePolynomials::factor(0), k1 = HemispherePolynomials::factor(1),
+                 k2 = HemispherePolynomials::factor(2);
+    const std::string flat = literal(k0 * k_pi / 2), up = literal(k1 * k_pi / 2);
+    std::vector<std::string> weights = {filled("$0 * n.z + $0", {flat}),
+                                        filled("$0 * angle * n.y", {literal(k1 * 2 / 3)}),
+                                        filled("$0 * (angle * n.z + sine) - $1 * n.z - $1", {literal(k1 * 4 / 3), up}),
+                                        filled("$0 * angle * n.x", {literal(k1 * 2 / 3)})};
+    if (count == 6) {
+        weights.push_back(filled("$0 * n.x * n.y", {literal(k2 * k_pi / 8)}));
+        weights.push_back(filled("$0 * (n.x * n.x - n.y * n.y)", {literal(k2 * k_pi / 16)}));
+    }
+    ShaderCode code = shader_text::sum_of(weights, "e");
+    code.functions.push_back({"arc_cosine", std::string(k_arc_cosine)});
+    code.statements =
+        R"(    // Irradiance of what is above the horizon (Habel and Wimmer 2010), by the angle between the normal and -z.
+    float angle = arc_cosine(-n.z);
+    float sine = sqrt(max(1.0 - n.z * n.z, 0.0));
+)" + code.statements;
+    return code;
+}
+
 /// Exact irradiance of what is above the horizon.
 class ExactAboveHorizon final : public LinearEvaluator {
   public:
@@ -90,6 +158,8 @@ class ExactAboveHorizon final : public LinearEvaluator {
             for (std::size_t j = 0; j < block.size; ++j) rows[i * k_block_size + j] *= factors[i];
     }
 
+    [[nodiscard]] Result<ShaderCode> irradiance_code() const override { return horizon_code(size()); }
+
   private:
     HorizonIrradiance irradiance_;
 };
@@ -111,6 +181,13 @@ class Projected final : public LinearEvaluator {
         std::array<float, 6 * k_block_size> own;
         basis_.values(block, own.data());
         kernels::transform_rows(own.data(), size(), matrix_.data(), block.size, rows);
+    }
+
+    [[nodiscard]] Result<ShaderCode> irradiance_code() const override {
+        ShaderCode code = polynomial_code({matrix_.begin(), matrix_.end()}, "n", "e");
+        code.statements = "    // The polynomials nearest to irradiance above the horizon (Habel and Wimmer 2010).\n" +
+                          code.statements;
+        return code;
     }
 
   private:
@@ -140,6 +217,12 @@ Result<std::shared_ptr<const Basis>> HemispherePolynomials::from_name(std::strin
 void HemispherePolynomials::values(DirectionView block, float* rows) const {
     const float k[] = {static_cast<float>(factor(0)), static_cast<float>(factor(1)), static_cast<float>(factor(2))};
     HWY_DYNAMIC_DISPATCH(PolynomialRows)(count_, k, block, rows);
+}
+
+Result<ShaderCode> HemispherePolynomials::radiance_code() const {
+    ShaderCode code = polynomial_code(gram(), "w", "sum");
+    code.statements = "    // Polynomials orthonormal over the hemisphere (Habel and Wimmer 2010).\n" + code.statements;
+    return code;
 }
 
 std::string HemispherePolynomials::description() const {

@@ -34,6 +34,7 @@ class HemispherePolynomials final : public LinearBasis {
     [[nodiscard]] std::string description() const override;
     [[nodiscard]] Domain domain() const override { return Domain::hemisphere; }
     [[nodiscard]] bool is_non_negative() const override { return false; }
+    [[nodiscard]] Result<ShaderCode> radiance_code() const override;
     [[nodiscard]] Matrix gram() const override;
     [[nodiscard]] std::vector<double> integrals() const override;
     /// projected: E as a combination of the same polynomials, which needs no arc cosine. exact: the integral over what

@@ -5,6 +5,7 @@
 #include <array>
 #include <charconv>
 
+#include "core/basis/octahedral_shader.h"
 #include "core/basis/turned_block.h"
 #include "core/math/quadrature.h"
 
@@ -117,6 +118,9 @@ class Centroids final : public LinearEvaluator {
         for (std::size_t i = 0; i < cells_.size(); ++i)
             HWY_DYNAMIC_DISPATCH(CentroidRow)(cells_[i], turned.view(), rows + i * k_block_size);
     }
+    [[nodiscard]] Result<ShaderCode> irradiance_code() const override {
+        return octahedral::centroid_code(cells_, map_from_domain_);
+    }
 
   private:
     std::vector<OctahedralTexels::Centroid> cells_;
@@ -216,6 +220,8 @@ void OctahedralTexels::radiance(std::span<const Rgb> c, DirectionView directions
     for (std::size_t j = 0; j < directions.size; ++j)
         set_entry(out, j, OctahedralTexels::radiance_at(c, direction_at(directions, j)));
 }
+
+Result<ShaderCode> OctahedralTexels::radiance_code() const { return octahedral::radiance_code(*this); }
 
 std::string OctahedralTexels::description() const {
     return "octahedral texels: constant radiance in " + std::to_string(map_.resolution) + " x " +

@@ -40,6 +40,7 @@ class OctahedralTexels final : public LinearBasis {
     void values_at(Vec3 direction, float* values) const override;
     void radiance(std::span<const Rgb> c, DirectionView directions, MutableColourView out) const override;
     [[nodiscard]] Rgb radiance_at(std::span<const Rgb> c, Vec3 direction) const override;
+    [[nodiscard]] Result<ShaderCode> radiance_code() const override;
     [[nodiscard]] std::string name() const override { return "oct" + std::to_string(map_.resolution); }
     [[nodiscard]] std::string description() const override;
     [[nodiscard]] Domain domain() const override { return Domain::sphere; }

@@ -7,6 +7,7 @@
 #include <cassert>
 
 #include "io/image_checks.h"
+#include "io/texture/dds.h"
 #include "io/texture/ktx2.h"
 
 namespace lobelia {
@@ -14,6 +15,7 @@ namespace {
 
 constexpr std::array k_containers = {
     TextureContainer{"ktx2", "KTX 2.0, not supercompressed, with metadata", write_ktx2},
+    TextureContainer{"dds", "DirectDraw Surface with the header of Direct3D 10", write_dds},
 };
 
 }  // namespace

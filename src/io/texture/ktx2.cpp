@@ -9,30 +9,10 @@
 #include <numeric>
 #include <vector>
 
+#include "io/texture/bytes.h"
+
 namespace lobelia {
 namespace {
-
-/// A buffer of little-endian numbers, as in the file.
-class Bytes {
-  public:
-    void u32(std::uint64_t value) { number(value, 4); }
-    void u64(std::uint64_t value) { number(value, 8); }
-    void text(std::string_view text) {
-        for (char c : text) data_.push_back(static_cast<std::byte>(c));
-    }
-    void pad_to(std::size_t multiple) {
-        while (data_.size() % multiple != 0) data_.push_back(std::byte{0});
-    }
-    void append(const Bytes& other) { data_.insert(data_.end(), other.data_.begin(), other.data_.end()); }
-    [[nodiscard]] std::size_t size() const { return data_.size(); }
-    [[nodiscard]] std::span<const std::byte> data() const { return data_; }
-
-  private:
-    void number(std::uint64_t value, int bytes) {
-        for (int i = 0; i < bytes; ++i) data_.push_back(static_cast<std::byte>(value >> (8 * i) & 0xff));
-    }
-    std::vector<std::byte> data_;
-};
 
 // Channels of the model RGBSDA; BC6H has one, 0. Qualifiers stand beside them.
 constexpr std::array<std::uint32_t, 4> k_rgba = {0, 1, 2, 15};

@@ -27,6 +27,9 @@ class FittedIrradiance final : public Evaluator {
         const auto [lobes, amplitudes] = FittedGaussians::lobes(c);
         SgIrradianceWeights(kind_, lobes).signed_irradiance(amplitudes, normals, out);
     }
+    [[nodiscard]] Result<ShaderCode> irradiance_code() const override {
+        return sg_shader::fitted_irradiance(kind_, coefficients_ / 2);
+    }
 
   private:
     SgIrradiance kind_;

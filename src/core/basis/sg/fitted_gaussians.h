@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/basis/octahedral.h"
+#include "core/basis/sg/sg_shader.h"
 #include "core/basis/sg/sg_specular.h"
 
 namespace lobelia {
@@ -19,6 +20,7 @@ class FittedGaussians final : public FittedBasis {
     [[nodiscard]] std::size_t size() const override { return 2 * count_; }
     [[nodiscard]] std::vector<Meaning> meanings() const override;
     void radiance(std::span<const Rgb> c, DirectionView directions, MutableColourView out) const override;
+    [[nodiscard]] Result<ShaderCode> radiance_code() const override { return sg_shader::fitted_radiance(count_); }
     [[nodiscard]] std::shared_ptr<const LinearBasis> accumulated() const override { return texels_; }
     void fit(std::span<const Rgb> accumulated, std::span<Rgb> c) const override;
     [[nodiscard]] bool is_continuous() const override { return false; }

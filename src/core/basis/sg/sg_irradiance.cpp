@@ -6,6 +6,8 @@
 #include <array>
 #include <type_traits>
 
+#include "core/basis/sg/sg_shader.h"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/basis/sg/sg_irradiance.cpp"
 #include <hwy/foreach_target.h>  // NOLINT: must precede highway.h
@@ -463,6 +465,10 @@ Rgb SgIrradianceWeights::signed_irradiance_at(std::span<const Rgb> c, Vec3 norma
     if (size() > k_few_lobes) return evaluate(*this, c, normal);
     return HWY_DYNAMIC_DISPATCH(IrradianceAt)(kind_, lobe_rows_.data(), lobe_stride_, constant_count_, ambient_, c,
                                               normal);
+}
+
+Result<ShaderCode> SgIrradianceWeights::irradiance_code() const {
+    return sg_shader::irradiance(kind_, lobes_, constants_);
 }
 
 std::vector<float> sg_irradiance(SgIrradiance kind, double sharpness, std::span<const float> cosines) {

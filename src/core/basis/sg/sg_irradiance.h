@@ -40,6 +40,7 @@ class SgIrradianceWeights final : public LinearEvaluator {
     void values(DirectionView block, float* rows) const override;
     void values_at(Vec3 normal, float* values) const override;
     [[nodiscard]] Rgb signed_irradiance_at(std::span<const Rgb> c, Vec3 normal) const override;
+    [[nodiscard]] Result<ShaderCode> irradiance_code() const override;
 
   private:
     SgIrradiance kind_;

@@ -4,6 +4,7 @@
 
 #include <mutex>
 
+#include "core/basis/sg/sg_shader.h"
 #include "core/basis/sg/sg_specular.h"
 #include "lobelia/bases.h"
 
@@ -33,6 +34,7 @@ class SphericalGaussians final : public LinearBasis {
     [[nodiscard]] std::size_t size() const override { return lobes_.size(); }
     void values(DirectionView block, float* rows) const override;
     void values_at(Vec3 direction, float* values) const override;
+    [[nodiscard]] Result<ShaderCode> radiance_code() const override { return sg_shader::radiance(lobes_); }
     [[nodiscard]] std::string name() const override { return name_; }
     [[nodiscard]] std::string description() const override;
     [[nodiscard]] Domain domain() const override { return domain_; }

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numeric>
 
+#include "core/basis/sh/sh_shader.h"
 #include "core/math/harmonics_degree_2.h"
 #include "core/math/scratch.h"
 #include "core/math/zonal_quadratic.h"
@@ -104,6 +105,9 @@ class BandFactors final : public LinearEvaluator {
     [[nodiscard]] Rgb signed_irradiance_at(std::span<const Rgb> c, Vec3 normal) const override {
         return harmonics_.sum_at(c, float_factors_, normal);
     }
+    [[nodiscard]] Result<ShaderCode> irradiance_code() const override {
+        return sh_shader::irradiance(factors_, reading_ == Reading::of_radiance ? "" : name_);
+    }
 
   private:
     std::string name_;
@@ -118,11 +122,12 @@ class BandFactors final : public LinearEvaluator {
 class Model final : public Evaluator {
   public:
     using Read = std::function<void(std::span<const Rgb>, DirectionView, MutableColourView)>;
-    Model(std::string name, std::string range, std::size_t degree, Read read)
+    Model(std::string name, std::string range, std::size_t degree, Read read, Result<ShaderCode> code)
         : name_(std::move(name)),
           range_(std::move(range)),
           coefficients_(harmonics::coefficient_count(degree)),
-          read_(std::move(read)) {}
+          read_(std::move(read)),
+          code_(std::move(code)) {}
     [[nodiscard]] std::string name() const override { return name_; }
     [[nodiscard]] Negative negative() const override { return Negative::clamped; }
     [[nodiscard]] Accuracy accuracy() const override {
@@ -132,11 +137,13 @@ class Model final : public Evaluator {
         check_evaluation(coefficients_, c, normals, out);
         read_(c, normals, out);
     }
+    [[nodiscard]] Result<ShaderCode> irradiance_code() const override { return code_; }
 
   private:
     std::string name_, range_;
     std::size_t coefficients_;
     Read read_;
+    Result<ShaderCode> code_;
 };
 
 /// Band 1 of one channel as a vector.
@@ -324,13 +331,16 @@ std::shared_ptr<const Evaluator> sh_evaluator(std::string_view name, std::size_t
     if (name == "hann") return linear(hann_window(degree), Negative::clamped, Reading::of_its_own);
     if (name == "lanczos") return linear(lanczos_window(degree), Negative::clamped, Reading::of_its_own);
     if (name == "laplacian") return linear(laplacian_window(degree), Negative::clamped, Reading::of_its_own);
-    const auto model = [&](const char* range, Model::Read read) {
-        return std::make_shared<Model>(std::string(name), range, degree, std::move(read));
+    const auto model = [&](const char* range, Model::Read read, Result<ShaderCode> code) {
+        return std::make_shared<Model>(std::string(name), range, degree, std::move(read), std::move(code));
     };
-    if (name == "dering") return model("every degree", dering_reader(degree));
+    if (name == "dering")
+        return model("every degree", dering_reader(degree),
+                     Error{"evaluator dering has no shader code: it searches for the window of each set of "
+                           "coefficients; apply the window before, or use hann, lanczos or laplacian"});
     if (degree != 1) return nullptr;
-    if (name == "geomerics") return model("degree 1", read_geomerics);
-    if (name == "zh3-hallucinated") return model("degree 1", read_hallucinated);
+    if (name == "geomerics") return model("degree 1", read_geomerics, sh_shader::geomerics());
+    if (name == "zh3-hallucinated") return model("degree 1", read_hallucinated, sh_shader::hallucinated());
     return nullptr;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/basis/sh/sh_irradiance.h"
+#include "core/basis/sh/sh_shader.h"
 #include "core/basis/sh/sh_specular.h"
 #include "lobelia/bases.h"
 
@@ -24,6 +25,7 @@ class SphericalHarmonics final : public LinearBasis {
     [[nodiscard]] Rgb radiance_at(std::span<const Rgb> c, Vec3 direction) const override {
         return harmonics_.sum_at(c, ones_, direction);
     }
+    [[nodiscard]] Result<ShaderCode> radiance_code() const override { return sh_shader::radiance(harmonics_.degree()); }
     [[nodiscard]] std::string name() const override;
     [[nodiscard]] std::string description() const override;
     [[nodiscard]] Domain domain() const override { return Domain::sphere; }

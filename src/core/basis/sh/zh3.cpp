@@ -4,6 +4,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 
+#include "core/basis/sh/sh_shader.h"
 #include "core/basis/sh/spherical_harmonics.h"
 #include "core/math/harmonics_degree_2.h"
 #include "core/math/zonal_quadratic.h"
@@ -156,6 +157,10 @@ std::array<ZonalQuadratic, 3> functions_of(std::span<const Rgb> c, Zh3::Axis axi
     return result;
 }
 
+sh_shader::ZonalAxisCode code_of(Zh3::Axis axis) {
+    return axis == Zh3::Axis::shared ? sh_shader::ZonalAxisCode::of_luminance : sh_shader::ZonalAxisCode::of_channel;
+}
+
 class Zh3Convolution final : public Evaluator {
   public:
     Zh3Convolution(Zh3::Axis axis, Negative negative) : axis_(axis), negative_(negative) {}
@@ -169,6 +174,9 @@ class Zh3Convolution final : public Evaluator {
     void signed_irradiance(std::span<const Rgb> c, DirectionView normals, MutableColourView out) const override {
         check_evaluation(k_coefficients, c, normals, out);
         evaluate(functions_of(c, axis_, {k_pi, 2 * k_pi / 3, k_pi / 4}), normals, out);
+    }
+    [[nodiscard]] Result<ShaderCode> irradiance_code() const override {
+        return sh_shader::zonal(std::array{k_pi, 2 * k_pi / 3, k_pi / 4}, code_of(axis_), "n");
     }
 
   private:
@@ -236,6 +244,10 @@ void Zh3::fit(std::span<const Rgb> accumulated, std::span<Rgb> c) const {
 void Zh3::radiance(std::span<const Rgb> c, DirectionView directions, MutableColourView out) const {
     check_evaluation(k_coefficients, c, directions, out);
     evaluate(functions_of(c, axis_, {1, 1, 1}), directions, out);
+}
+
+Result<ShaderCode> Zh3::radiance_code() const {
+    return sh_shader::zonal(std::array{1.0, 1.0, 1.0}, code_of(axis_), "w");
 }
 
 std::string Zh3::description() const {

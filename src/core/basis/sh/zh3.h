@@ -17,6 +17,7 @@ class Zh3 final : public FittedBasis {
 
     [[nodiscard]] std::size_t size() const override { return 5; }
     void radiance(std::span<const Rgb> c, DirectionView directions, MutableColourView out) const override;
+    [[nodiscard]] Result<ShaderCode> radiance_code() const override;
     [[nodiscard]] std::shared_ptr<const LinearBasis> accumulated() const override;
     /// The least error of irradiance, band by band A_l^2 |L_l' - L_l|^2, over the axis and all else; the mean is kept.
     void fit(std::span<const Rgb> accumulated, std::span<Rgb> c) const override;

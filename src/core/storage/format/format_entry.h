@@ -2,6 +2,7 @@
 #pragma once
 
 #include "lobelia/pixel_format.h"
+#include "lobelia/shader_code.h"
 
 namespace lobelia {
 
@@ -18,6 +19,8 @@ struct FormatEntry {
     void (*decode_image)(std::size_t width, std::size_t height, const std::byte* bytes,
                          MutableChannelPointers channels) = nullptr;
     Scaling scaling = Scaling::if_needed;
+    /// "vec3 decode_NAME(vec4 texel)", where graphics interfaces give something else than the channels.
+    const ShaderFunction& (*shader_decode)() = nullptr;
 };
 
 namespace texels {

@@ -2,6 +2,8 @@
 // either side of it.
 #include "core/storage/format/logluv.h"
 
+#include "core/math/shader_pattern.h"
+#include "core/math/shader_text.h"
 #include "core/storage/format/format_entry.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -89,9 +91,37 @@ void decode_logluv(const std::byte* bytes, std::size_t count, float* const* out)
     HWY_DYNAMIC_DISPATCH(DecodeLogluv)(reinterpret_cast<const std::int32_t*>(bytes), count, out);
 }
 
+/// X = 9 u Y / 4 v and Z = (12 - 3 u - 20 v) Y / 4 v: red, green and blue are linear in u, v and 1, times Y / v. Here u
+/// and v are in steps, of which 255 are 1 in the texture.
+ShaderFunction logluv_function() {
+    const Rgb x = rgb_from({1, 0, 0}), y = rgb_from({0, 1, 0}), z = rgb_from({0, 0, 1});
+    const Rgb by_u = x * 2.25f - z * 0.75f, by_v = y - z * 5.0f, constant = z * (3 * k_chroma_steps);
+    const auto literal = [](Rgb c) { return shader_text::literal(Vec3{c.r, c.g, c.b}); };
+    return {"decode_logluv32",
+            shader_text::filled(
+                "/// Returns the colour of a LogLuv texel, its bytes over 255: 256 steps for each power of two of the\n"
+                "/// luminance, 410 for 1 of the chromaticities u' and v' (Ward Larson 1998).\n"
+                "vec3 decode_logluv32(vec4 texel) {\n"
+                "    float log_steps = 256.0 * floor(255.0 * texel.w + 0.5) + floor(255.0 * texel.z + 0.5);\n"
+                "    float luminance = choose(log_steps > 0.0, exp2((log_steps + 0.5) / 256.0 - 64.0), 0.0);\n"
+                "    float u = 255.0 * texel.y + 0.5;\n"
+                "    float v = 255.0 * texel.x + 0.5;\n"
+                "    vec3 colour = $0 * u + $1 * v + $2;\n"
+                "    return max(colour * (luminance / v), vec3(0.0));\n"
+                "}\n",
+                {literal(by_u), literal(by_v), literal(constant)})};
+}
+const ShaderFunction& shader_decode_logluv() {
+    static const ShaderFunction k_function = logluv_function();
+    return k_function;
+}
+
 }  // namespace
 
-constinit const FormatEntry logluv32 = {{"logluv32", 3, 1, 4, 37, 0, 0x1p60}, encode_logluv, decode_logluv};
+constinit const FormatEntry logluv32 = {.info = {"logluv32", 3, 1, 4, 37, 0, 0x1p60},
+                                        .encode = encode_logluv,
+                                        .decode = decode_logluv,
+                                        .shader_decode = shader_decode_logluv};
 
 }  // namespace lobelia::texels
 #endif

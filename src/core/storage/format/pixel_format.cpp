@@ -61,6 +61,11 @@ void decode_plain(const FormatEntry& entry, std::size_t count, const std::byte* 
 
 const FormatInfo& info(PixelFormat format) { return entry_of(format).info; }
 
+const ShaderFunction* decode_function(PixelFormat format) {
+    const auto function = entry_of(format).shader_decode;
+    return function ? &function() : nullptr;
+}
+
 std::span<const PixelFormat> pixel_formats() { return k_formats; }
 
 std::size_t byte_size(PixelFormat format, std::size_t width, std::size_t height) {

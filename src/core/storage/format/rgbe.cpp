@@ -55,9 +55,26 @@ void decode_rgbe(const std::byte* bytes, std::size_t count, float* const* out) {
     HWY_DYNAMIC_DISPATCH(DecodeRgbe)(reinterpret_cast<const std::uint32_t*>(bytes), count, out);
 }
 
+const ShaderFunction& shader_decode_rgbe() {
+    static const ShaderFunction k_function = {
+        "decode_rgbe8",
+        "/// Returns the colour of an RGBE texel, its bytes over 255: mantissas times 2^(exponent - 136); black if "
+        "the\n"
+        "/// exponent is 0 (Ward 1991).\n"
+        "vec3 decode_rgbe8(vec4 texel) {\n"
+        "    float exponent = floor(255.0 * texel.w + 0.5);\n"
+        "    float scale = choose(exponent > 0.0, 255.0 * exp2(exponent - 136.0), 0.0);\n"
+        "    return scale * vec3(texel.x, texel.y, texel.z);\n"
+        "}\n"};
+    return k_function;
+}
+
 }  // namespace
 
-constinit const FormatEntry rgbe8 = {{"rgbe8", 3, 1, 4, 37, 0, k_largest_rgbe}, encode_rgbe, decode_rgbe};
+constinit const FormatEntry rgbe8 = {.info = {"rgbe8", 3, 1, 4, 37, 0, k_largest_rgbe},
+                                     .encode = encode_rgbe,
+                                     .decode = decode_rgbe,
+                                     .shader_decode = shader_decode_rgbe};
 
 }  // namespace lobelia::texels
 #endif

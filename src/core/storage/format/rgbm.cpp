@@ -50,10 +50,22 @@ void decode_rgbm(const std::byte* bytes, std::size_t count, float* const* out) {
     HWY_DYNAMIC_DISPATCH(DecodeRgbm)(reinterpret_cast<const std::uint32_t*>(bytes), count, out);
 }
 
+const ShaderFunction& shader_decode_rgbm() {
+    static const ShaderFunction k_function = {"decode_rgbm8",
+                                              "/// Returns the colour of an RGBM texel.\n"
+                                              "vec3 decode_rgbm8(vec4 texel) {\n"
+                                              "    return texel.w * vec3(texel.x, texel.y, texel.z);\n"
+                                              "}\n"};
+    return k_function;
+}
+
 }  // namespace
 
-constinit const FormatEntry rgbm8 = {
-    {"rgbm8", 3, 1, 4, 37, 0, 1}, encode_rgbm, decode_rgbm, nullptr, nullptr, Scaling::always};
+constinit const FormatEntry rgbm8 = {.info = {"rgbm8", 3, 1, 4, 37, 0, 1},
+                                     .encode = encode_rgbm,
+                                     .decode = decode_rgbm,
+                                     .scaling = Scaling::always,
+                                     .shader_decode = shader_decode_rgbm};
 
 }  // namespace lobelia::texels
 #endif

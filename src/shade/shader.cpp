@@ -1,0 +1,143 @@
+#include "shade/shader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "shade/translate.h"
+
+namespace lobelia::shade {
+namespace {
+
+/// A function of coefficients and a direction.
+struct NeedInfo {
+    std::string_view name, direction, value;
+};
+const NeedInfo& info(Need need) {
+    static constexpr NeedInfo k_irradiance = {"irradiance", "n",
+                                              "Returns irradiance E(n) [W/m^2] at the unit normal n."};
+    static constexpr NeedInfo k_radiance = {"radiance", "w",
+                                            "Returns radiance L(w) [W/(m^2 sr)] from the unit direction w."};
+    return need == Need::irradiance ? k_irradiance : k_radiance;
+}
+
+Result<ShaderCode> code_of(const Codec& codec, Need need) {
+    return need == Need::irradiance ? codec.evaluator().irradiance_code() : codec.basis().radiance_code();
+}
+
+/// Collects functions, each once.
+class Functions {
+  public:
+    void add(const std::vector<ShaderFunction>& functions) {
+        for (const ShaderFunction& f : functions)
+            if (std::find(list_.begin(), list_.end(), f) == list_.end()) list_.push_back(f);
+    }
+    [[nodiscard]] std::string text() const {
+        std::string text;
+        for (const ShaderFunction& f : list_) text += f.text + "\n";
+        return text;
+    }
+
+  private:
+    std::vector<ShaderFunction> list_;
+};
+
+std::string function_text(Need need, const ShaderCode& code, Negative negative) {
+    const NeedInfo& about = info(need);
+    const std::string result =
+        negative == Negative::clamped ? fmt::format("max({}, vec3(0.0))", code.result) : code.result;
+    return fmt::format("/// {}\nvec3 {}(Coefficients light, vec3 {}) {{\n{}    return {};\n}}\n", about.value,
+                       about.name, about.direction, code.statements, result);
+}
+
+Frame frame_of(const Codec& codec, const ShaderRequest& request) {
+    return request.frame.value_or(codec.basis().domain() == Domain::hemisphere ? Frame::tangent : Frame::scene);
+}
+
+/// The rows of the frame, as tangent_from_world() in src/bake/place/tangent.cpp has them.
+constexpr std::string_view k_to_tangent =
+    R"(/// Returns w, a direction in the scene's frame, in the tangent frame of the unit interpolated vertex normal. The frame
+/// depends on that normal alone, not on UVs (Frisvad 2012).
+vec3 to_tangent(vec3 normal, vec3 w) {
+    vec3 x = vec3(3.0, -6.0, 2.0) / 7.0;
+    vec3 y = vec3(6.0, 2.0, -3.0) / 7.0;
+    vec3 z = vec3(2.0, 3.0, 6.0) / 7.0;
+    float a = dot(x, normal);
+    float b = dot(y, normal);
+    float along = dot(z, normal);
+    // 1 + along, also where the normal is nearly -z.
+    float c = choose(along > 0.0, 1.0 + along, (a * a + b * b) / (1.0 - along));
+    vec3 h = (x * a + y * b) / max(c, 1.0e-12) + z;
+    return vec3(dot(x - h * a, w), dot(y - h * b, w), dot(normal, w));
+}
+)";
+
+/// The comment at the head of the text, without the marks of a comment.
+std::string head(const Codec& codec, const ShaderRequest& request) {
+    const Accuracy accuracy = codec.evaluator().accuracy();
+    std::string text = fmt::format("{}{}, {}.\n\n", codec.name().str(),
+                                   request.storage ? fmt::format(" stored as {}", request.storage->name) : "",
+                                   shade::info(request.language).description);
+    text += fmt::format("Basis: {}.\n", codec.basis().description());
+    for (const Need need : request.needs)
+        if (need == Need::irradiance)
+            text += fmt::format("Irradiance: {}; valid: {}; largest error: {}.\n", codec.evaluator().name(),
+                                accuracy.range, accuracy.error);
+    if (request.storage) text += fmt::format("Storage: {}.\n", request.storage->description);
+    text +=
+        frame_of(codec, request) == Frame::tangent
+            ? "Directions are unit vectors in the tangent frame, see to_tangent(), and point away from the surface. "
+              "Without a\nnormal map the normal is (0, 0, 1).\n"
+            : "Directions are unit vectors in the scene's frame (right-handed), and point away from the surface.\n";
+    text += "Irradiance is not divided by pi: a Lambertian surface reflects albedo * E / pi.\n";
+    return text;
+}
+
+std::string as_comment(const std::string& text) {
+    std::string comment;
+    for (std::size_t begin = 0; begin < text.size();) {
+        const std::size_t end = std::min(text.find('\n', begin), text.size());
+        comment += "//";
+        if (end > begin) comment += " " + text.substr(begin, end - begin);
+        comment += "\n";
+        begin = end + 1;
+    }
+    return comment;
+}
+
+}  // namespace
+
+Result<std::string> shader_text(const Codec& codec, const ShaderRequest& request) {
+    Functions functions;
+    std::string source = fmt::format(
+        "/// The coefficients of one place.\nstruct Coefficients {{\n    vec3 c[{}];\n}};\n\n", codec.basis().size());
+    std::string last;
+
+    if (frame_of(codec, request) == Frame::tangent) functions.add({{"to_tangent", std::string(k_to_tangent)}});
+
+    // Unpack sampled values.
+    if (request.storage) {
+        const CoefficientTraits traits = coefficient_traits(*codec.encoder());
+        if (!suits(*request.storage, traits))
+            return find_storages(std::vector{std::string(request.storage->name)}, traits).error();
+        const UnpackCode unpack = unpack_code(request.storage->layout(traits));
+        functions.add(unpack.functions);
+        source += unpack.texel + "\n";
+        last += "/// Returns the coefficients of a texel.\nCoefficients unpack(Texel t) {\n" + unpack.body + "}\n\n";
+    }
+
+    // Evaluate coefficients.
+    for (const Need need : request.needs) {
+        const auto code = code_of(codec, need);
+        if (!code) return code.error();
+        functions.add(code->functions);
+        last += function_text(need, *code, codec.evaluator().negative()) + "\n";
+    }
+
+    auto text = translate(source + functions.text() + last, request.language);
+    if (!text) return text.error();
+    while (text->ends_with("\n\n")) text->pop_back();
+    return as_comment(head(codec, request)) + "\n" + *text;
+}
+
+}  // namespace lobelia::shade

@@ -1,0 +1,177 @@
+#include "shader_runner.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <set>
+#include <sstream>
+
+#include "glslang.h"
+
+namespace lobelia::test {
+namespace {
+
+using shade::Language;
+
+/// Invocations of a group; each evaluates one direction, or unpacks one texel.
+constexpr std::size_t k_group = 64;
+/// Cases in one shader.
+constexpr std::size_t k_batch = 16;
+
+/// The declarations before the texts of a compute shader.
+std::string compute_head(Language language) {
+    if (language == Language::hlsl)
+        return "[[vk::constant_id(0)]] const int chosen_case = 0;\n"
+               "[[vk::constant_id(1)]] const int direction_count = 1;\n"
+               "[[vk::binding(0, 0)]] StructuredBuffer<float> input_values;\n"
+               "[[vk::binding(1, 0)]] StructuredBuffer<float> input_xyz;\n"
+               "[[vk::binding(2, 0)]] RWStructuredBuffer<float> results;\n";
+    return fmt::format(
+        "#version 450\nlayout(local_size_x = {}) in;\n"
+        "layout(constant_id = 0) const int chosen_case = 0;\n"
+        "layout(constant_id = 1) const int direction_count = 1;\n"
+        "layout(set = 0, binding = 0) readonly buffer Values {{ float input_values[]; }};\n"
+        "layout(set = 0, binding = 1) readonly buffer Xyz {{ float input_xyz[]; }};\n"
+        "layout(set = 0, binding = 2) writeonly buffer Results {{ float results[]; }};\n",
+        k_group);
+}
+
+/// A function that evaluates coefficients `y` at direction `x`.
+std::string evaluation(const ShaderCase& shader, std::string_view vec3) {
+    return fmt::format(
+        "void run_case(int x, int y) {{\n"
+        "    Coefficients light;\n"
+        "    for (int i = 0; i < {0}; i++) {{\n"
+        "        int at = 3 * ({0} * y + i);\n"
+        "        light.c[i] = {1}(input_values[at], input_values[at + 1], input_values[at + 2]);\n"
+        "    }}\n"
+        "    {1} value = {2}(light, {1}(input_xyz[3 * x], input_xyz[3 * x + 1], input_xyz[3 * x + 2]));\n"
+        "    int out_at = 3 * (direction_count * y + x);\n"
+        "    results[out_at] = value.x;\n    results[out_at + 1] = value.y;\n    results[out_at + 2] = value.z;\n}}\n",
+        codec_of(shader).basis().size(), vec3, shader.function);
+}
+
+/// A function that unpacks texel `x`.
+std::string unpacking(const ShaderCase& shader, std::string_view vec4) {
+    const Codec codec = codec_of(shader);
+    std::size_t stride = 0;
+    std::string members;
+    for (const auto& texture :
+         find_storage(shader.part).value()->layout(coefficient_traits(*codec.encoder())).textures) {
+        members += fmt::format(
+            "    t.{0} = {1}(input_values[at + {2}], input_values[at + {3}], input_values[at + {4}], input_values[at + "
+            "{5}]);\n",
+            texture.name, vec4, stride, stride + 1, stride + 2, stride + 3);
+        stride += 4;
+        if (decode_function(texture.format))
+            members += fmt::format("    t.{}_scale = input_values[at + {}];\n", texture.name, stride++);
+    }
+    return fmt::format(
+        "void run_case(int x, int y) {{\n    int at = {0} * x;\n    Texel t;\n{1}"
+        "    Coefficients light = unpack(t);\n"
+        "    for (int i = 0; i < {2}; i++) {{\n"
+        "        int out_at = 3 * ({2} * x + i);\n"
+        "        results[out_at] = light.c[i].x;\n        results[out_at + 1] = light.c[i].y;\n"
+        "        results[out_at + 2] = light.c[i].z;\n    }}\n}}\n",
+        stride, members, codec.basis().size());
+}
+
+std::string compute_shader(std::span<const ShaderCase> shaders, std::span<const std::string> texts, Language language) {
+    const std::string vec3(info(language).vec3), vec4 = vec3.substr(0, vec3.size() - 1) + "4";
+    std::string text = compute_head(language), choices;
+    for (std::size_t i = 0; i < shaders.size(); ++i) {
+        const std::string suffix = fmt::format("_case_{}", i);
+        text += with_own_names(
+            texts[i] + (unpacks(shaders[i]) ? unpacking(shaders[i], vec4) : evaluation(shaders[i], vec3)), suffix);
+        choices += fmt::format("    if (chosen_case == {}) run_case{}(x, y);\n", i, suffix);
+    }
+    if (language == Language::hlsl)
+        return text + fmt::format(
+                          "[numthreads({}, 1, 1)]\nvoid main(uint3 id : SV_DispatchThreadID) {{\n"
+                          "    int x = int(id.x), y = int(id.y);\n{}}}\n",
+                          k_group, choices);
+    return text + "void main() {\n    int x = int(gl_GlobalInvocationID.x), y = int(gl_GlobalInvocationID.y);\n" +
+           choices + "}\n";
+}
+
+}  // namespace
+
+std::string with_own_names(const std::string& text, const std::string& suffix) {
+    // An outermost declaration begins a line: the name is the last word before what follows it.
+    std::set<std::string> names;
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) {
+        if (line.empty() || std::isalpha(static_cast<unsigned char>(line.front())) == 0) continue;
+        const std::string start = line.substr(0, line.find_first_of("({[="));
+        const std::size_t end = start.find_last_not_of(' ') + 1;
+        names.insert(start.substr(start.find_last_of(' ', end - 1) + 1, end - start.find_last_of(' ', end - 1) - 1));
+    }
+    std::string before, after;
+    for (const auto& name : names) {
+        before += fmt::format("#define {0} {0}{1}\n", name, suffix);
+        after += fmt::format("#undef {}\n", name);
+    }
+    return before + text + after;
+}
+
+std::vector<float> run_msl_as_cpp(const ShaderCase& shader, const ShaderInput& input) {
+    std::vector<float> results(input.texels * input.directions * input.results);
+    for (std::size_t i = 0; i < input.texels; ++i)
+        for (std::size_t j = 0; j < input.directions; ++j) {
+            const float* texel = input.values.data() + i * input.stride();
+            float* out = results.data() + (i * input.directions + j) * input.results;
+            if (unpacks(shader))
+                shader.call(nullptr, texel, out);
+            else
+                shader.call(texel, input.xyz.data() + 3 * j, out);
+        }
+    return results;
+}
+
+Result<std::unique_ptr<VulkanRunner>> VulkanRunner::open(Language language) {
+    if (!has_glslang()) return Error{"no glslangValidator: install glslang-tools"};
+    auto compute = VulkanCompute::open();
+    if (!compute) return compute.error();
+    return std::unique_ptr<VulkanRunner>(new VulkanRunner(language, std::move(compute).value()));
+}
+
+Result<std::vector<float>> VulkanRunner::run(const ShaderCase& shader, const ShaderInput& input) {
+    const auto all = shader_cases();
+    const auto index = static_cast<std::size_t>(&shader - all.data());
+    if (spirv_.empty() || index / k_batch != batch_) {
+        batch_ = index / k_batch;
+        const auto shaders = all.subspan(batch_ * k_batch, std::min(k_batch, all.size() - batch_ * k_batch));
+        std::vector<std::string> texts;
+        for (const ShaderCase& other : shaders) texts.push_back(text_of(other, language_).value());
+        auto spirv = spirv_of(compute_shader(shaders, texts, language_), language_);
+        if (!spirv) return spirv.error();
+        spirv_ = std::move(spirv).value();
+    }
+    return dispatch(input, spirv_, index % k_batch);
+}
+
+Result<std::vector<float>> VulkanRunner::run(const ShaderCase& shader, const std::string& text,
+                                             const ShaderInput& input) {
+    const auto spirv = spirv_of(compute_shader({&shader, 1}, {&text, 1}, language_), language_);
+    if (!spirv) return spirv.error();
+    return dispatch(input, *spirv, 0);
+}
+
+Result<std::vector<float>> VulkanRunner::dispatch(const ShaderInput& input, std::span<const std::uint32_t> spirv,
+                                                  std::size_t chosen) {
+    // Texels to unpack go side by side, others one below the other.
+    const bool unpacking = input.xyz.empty();
+    const std::size_t x = unpacking ? input.texels : input.directions, y = unpacking ? 1 : input.texels;
+    check_range("invocations beyond whole groups", x % k_group, 0, 0);
+    ComputeJob job;
+    job.spirv = spirv;
+    job.constants = {static_cast<std::int32_t>(chosen), static_cast<std::int32_t>(input.directions)};
+    job.first = input.values;
+    job.second = input.xyz;
+    job.results = input.texels * input.directions * input.results;
+    job.groups = {static_cast<std::uint32_t>(x / k_group), static_cast<std::uint32_t>(y)};
+    return compute_->run(job);
+}
+
+}  // namespace lobelia::test
