@@ -35,8 +35,8 @@ Result<LoadedScene> read_or_make(const SceneSource& source, const std::atomic<bo
         return LoadedScene{*std::move(scene)};
     }
     if (std::filesystem::exists(source.path, code)) return read_gltf(source.path, gltf_options(source, stop));
-    return Error{
-        fmt::format("{}: no such file, and no embedded scene (known: {}, terrain)", source.path, fmt::join(names, ", "))};
+    return Error{fmt::format("{}: no such file, and no embedded scene (known: {}, terrain)", source.path,
+                             fmt::join(names, ", "))};
 }
 
 Status set_file_environment(LoadedScene& scene, const std::string& path, const SceneSource& source) {
