@@ -158,6 +158,20 @@ TEST(ShaderParity, FunctionsGiveWhatTheLibraryGives) {
     }
 }
 
+TEST(ShaderParity, AWrongSignIsFoundInEveryWay) {
+    Runners runners;
+    for (const test::ShaderCase& shader : test::shader_cases()) {
+        if (test::unpacks(shader) || std::string_view(shader.basis) != "sh1") continue;
+        const Codec codec = test::codec_of(shader);
+        auto texels = texels_of(*codec.encoder(), 4);
+        const Directions directions = test::random_directions(codec.basis().domain(), 64, 9);
+        const auto expected = expected_of(shader, codec, texels, directions);
+        for (auto& c : texels) c[1] = c[1] * -1.0f;
+        for (const auto& column : runners.columns(shader, input_of(texels, directions), expected))
+            for (const double difference : column) EXPECT_GT(difference, 1e-2) << shader.part << " " << shader.function;
+    }
+}
+
 /// Appends the values of a texture as graphics interfaces give them at one texel, four a texel, and the scale where the
 /// code asks for it.
 void append_sampled(std::vector<float>& texel, const TextureLayout::Texture& layout, const PackedTexture& packed,
