@@ -5,26 +5,11 @@
 // if Chromium or playwright-core is not installed.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
-import { existsSync, mkdtempSync, rmSync } from "node:fs";
-import { createRequire } from "node:module";
+import { mkdtempSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";
-
-const skip = (reason) => {
-    console.log(`skipped: ${reason}`);
-    process.exit(77);
-};
-
-const executablePath = ["/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"].find(existsSync);
-if (!executablePath) skip("no Chromium: setup/packages test installs it");
-let chromium;
-try {
-    const installed = createRequire(new URL("../../tools/package.json", import.meta.url));
-    ({ chromium } = await import(pathToFileURL(installed.resolve("playwright-core"))).then((module) => module.default ?? module));
-} catch {
-    skip("no playwright-core: npm ci --prefix tools");
-}
+import { launch } from "./chromium.mjs";
 
 const [, , lobelia, screenshots] = process.argv;
 const work = mkdtempSync(join(tmpdir(), "lobelia-browser-"));
@@ -41,7 +26,7 @@ function make_reports() {
 
 const reports = { compare: "compare/report.html", study: "study/irradiance.html", bake: "bake/bake.html" };
 
-const browser = await chromium.launch({ executablePath, args: ["--no-sandbox"] });
+const browser = await launch();
 
 /// Opens a report from the disk; `errors` collects what the console says.
 async function open(name, options = {}) {
