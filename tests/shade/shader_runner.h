@@ -23,14 +23,17 @@ struct ShaderInput {
 /// Runs Metal's text compiled as C++. Returns results of texel 0 at each direction, of texel 1, ...
 [[nodiscard]] std::vector<float> run_msl_as_cpp(const ShaderCase& shader, const ShaderInput& input);
 
-/// Runs GLSL or HLSL on Vulkan, many cases of shader_cases() in one shader.
+/// Whether a case runs on Vulkan: drivers take minutes to compile the unpacking of hundreds of coefficients.
+[[nodiscard]] bool runs_on_vulkan(const ShaderCase& shader);
+
+/// Runs GLSL or HLSL on Vulkan, some cases of shader_cases() in one shader.
 class VulkanRunner {
   public:
     /// Errors: no driver, or no glslangValidator.
     [[nodiscard]] static Result<std::unique_ptr<VulkanRunner>> open(shade::Language language);
     [[nodiscard]] std::string device() const { return compute_->device(); }
 
-    /// Runs a member of shader_cases(); results as above. Errors: of the compiler or the driver.
+    /// Runs a member of shader_cases() that runs_on_vulkan(); results as above. Errors: of the compiler or the driver.
     [[nodiscard]] Result<std::vector<float>> run(const ShaderCase& shader, const ShaderInput& input);
     /// Runs another text in place of the case's own.
     [[nodiscard]] Result<std::vector<float>> run(const ShaderCase& shader, const std::string& text,

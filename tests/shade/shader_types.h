@@ -11,7 +11,7 @@ template <std::size_t N>
 struct Vec;
 template <>
 struct Vec<2> {
-    float x = 0, y = 0;
+    float x, y;
     Vec() = default;
     explicit Vec(float s) : x(s), y(s) {}
     Vec(float a, float b) : x(a), y(b) {}
@@ -20,7 +20,7 @@ struct Vec<2> {
 };
 template <>
 struct Vec<3> {
-    float x = 0, y = 0, z = 0;
+    float x, y, z;
     Vec() = default;
     explicit Vec(float s) : x(s), y(s), z(s) {}
     Vec(float a, float b, float c) : x(a), y(b), z(c) {}
@@ -29,7 +29,7 @@ struct Vec<3> {
 };
 template <>
 struct Vec<4> {
-    float x = 0, y = 0, z = 0, w = 0;
+    float x, y, z, w;
     Vec() = default;
     explicit Vec(float s) : x(s), y(s), z(s), w(s) {}
     Vec(float a, float b, float c, float d) : x(a), y(b), z(c), w(d) {}
@@ -37,29 +37,28 @@ struct Vec<4> {
     float operator[](std::size_t i) const { return i == 0 ? x : i == 1 ? y : i == 2 ? z : w; }
 };
 
+// With constant indices, not in a loop: even -O1 then keeps vectors in registers.
 template <std::size_t N, class F>
 Vec<N> each(const F& f) {
-    Vec<N> r;
-    for (std::size_t i = 0; i < N; ++i) r[i] = f(i);
-    return r;
+    if constexpr (N == 2) return {f(0), f(1)};
+    if constexpr (N == 3) return {f(0), f(1), f(2)};
+    if constexpr (N == 4) return {f(0), f(1), f(2), f(3)};
 }
 
-#define SHADER_OPERATOR(op)                                          \
-    template <std::size_t N>                                         \
-    Vec<N> operator op(Vec<N> a, Vec<N> b) {                         \
-        return each<N>([&](std::size_t i) { return a[i] op b[i]; }); \
-    }                                                                \
-    template <std::size_t N>                                         \
-    Vec<N> operator op(Vec<N> a, float b) {                          \
-        return a op Vec<N>(b);                                       \
-    }                                                                \
-    template <std::size_t N>                                         \
-    Vec<N> operator op(float a, Vec<N> b) {                          \
-        return Vec<N>(a) op b;                                       \
-    }                                                                \
-    template <std::size_t N, class B>                                \
-    Vec<N>& operator op##=(Vec<N>& a, B b) {                         \
-        return a = a op b;                                           \
+#define SHADER_INLINE [[gnu::always_inline]] inline
+#define SHADER_OPERATOR(op)                                                                                           \
+    SHADER_INLINE Vec<2> operator op(Vec<2> a, Vec<2> b) { return {a.x op b.x, a.y op b.y}; }                         \
+    SHADER_INLINE Vec<2> operator op(Vec<2> a, float b) { return {a.x op b, a.y op b}; }                              \
+    SHADER_INLINE Vec<2> operator op(float a, Vec<2> b) { return {a op b.x, a op b.y}; }                              \
+    SHADER_INLINE Vec<3> operator op(Vec<3> a, Vec<3> b) { return {a.x op b.x, a.y op b.y, a.z op b.z}; }             \
+    SHADER_INLINE Vec<3> operator op(Vec<3> a, float b) { return {a.x op b, a.y op b, a.z op b}; }                    \
+    SHADER_INLINE Vec<3> operator op(float a, Vec<3> b) { return {a op b.x, a op b.y, a op b.z}; }                    \
+    SHADER_INLINE Vec<4> operator op(Vec<4> a, Vec<4> b) { return {a.x op b.x, a.y op b.y, a.z op b.z, a.w op b.w}; } \
+    SHADER_INLINE Vec<4> operator op(Vec<4> a, float b) { return {a.x op b, a.y op b, a.z op b, a.w op b}; }          \
+    SHADER_INLINE Vec<4> operator op(float a, Vec<4> b) { return {a op b.x, a op b.y, a op b.z, a op b.w}; }          \
+    template <std::size_t N, class B>                                                                                 \
+    SHADER_INLINE Vec<N>& operator op##=(Vec<N>& a, B b) {                                                            \
+        return a = a op b;                                                                                            \
     }
 SHADER_OPERATOR(+)
 SHADER_OPERATOR(-)
@@ -72,7 +71,8 @@ Vec<N> operator-(Vec<N> a) {
 }
 
 template <std::size_t N>
-float dot(Vec<N> a, Vec<N> b) {
+SHADER_INLINE float dot(Vec<N> a, Vec<N> b) {
+    if constexpr (N == 3) return a.x * b.x + a.y * b.y + a.z * b.z;
     float sum = 0;
     for (std::size_t i = 0; i < N; ++i) sum += a[i] * b[i];
     return sum;
