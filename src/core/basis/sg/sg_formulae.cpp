@@ -4,8 +4,8 @@
 #include "core/basis/sg/sg_formulae.h"
 
 #include <array>
-
-#include "core/math/shader_pattern.h"
+#include <cmath>
+#include <utility>
 
 namespace lobelia::sg_shader {
 namespace {
@@ -29,16 +29,29 @@ float complementary_error(float x) {
 }
 )"};
 
+/// tanh of what is never small against 1 where it counts: sharpness of 2 and more.
+const ShaderFunction k_tanh = {"hyperbolic_tangent", R"(/// Returns tanh(x), off by at most 1.2e-7.
+float hyperbolic_tangent(float x) {
+    return 1.0 - 2.0 / (exp(min(2.0 * x, 80.0)) + 1.0);
+}
+)"};
+const ShaderFunction k_precise_tanh = {"hyperbolic_tangent", R"(/// Returns tanh(x), off by at most 3e-7 of it.
+float hyperbolic_tangent(float x) {
+    float y = x * x;
+    float fraction = x * (945.0 + y * (105.0 + y)) / (945.0 + y * (420.0 + 15.0 * y));
+    return choose(y < 1.0, fraction, 1.0 - 2.0 / (exp(min(2.0 * x, 80.0)) + 1.0));
+}
+)"};
+
+/// The blend of the library's formula, a logistic, is (1 + tanh(t cosine) / tanh(t)) / 2.
 const ShaderFunction k_hemisphere = {
     "hemisphere_integral",
     R"(/// Returns the integral of a lobe over the hemisphere of which the pole has this cosine to its axis.
 float hemisphere_integral(float sharpness, float cosine) {
-    float t = sqrt(sharpness) * sharpness * (1.6988 * sharpness + 10.8438) / (sharpness * (sharpness + 6.2201) + 10.2415);
-    float tc = max(t * cosine, -80.0);
-    float blend = (1.0 - exp(-t - tc)) / ((1.0 - exp(-t)) * (1.0 + exp(-tc)));
-    float upper = 6.2831855 * (1.0 - exp(-sharpness)) / sharpness;
-    float lower = upper * exp(-sharpness);
-    return lower + blend * (upper - lower);
+    float t = sqrt(sharpness) * sharpness * (0.8494 * sharpness + 5.4219) / (sharpness * (sharpness + 6.2201) + 10.2415);
+    float a = hyperbolic_tangent(0.5 * sharpness);
+    float mean = 12.566371 * a / (sharpness * (1.0 + a) * (1.0 + a));
+    return mean + mean * a * hyperbolic_tangent(t * cosine) / hyperbolic_tangent(t);
 }
 )"};
 
@@ -46,43 +59,40 @@ float hemisphere_integral(float sharpness, float cosine) {
 const std::array<Formula, 8> k_formulae = {{
     {"inner_product",
      "by its inner product with a lobe like the cosine (Wang et al. 2009)",
-     {"squares", "product", "sum", "scale"},
-     R"(    float u = sqrt(max($0 + $1 * cosine, 1.0e-12));
-    return $3 * exp(u - $2) * (1.0 - exp(-2.0 * u)) / u;
+     {"scale", "squares", "product", "sum"},
+     R"(    float u = sqrt(max($1 + $2 * cosine, 1.0e-12));
+    return @exp(u - $3) * (1.0 - exp(-2.0 * u)) / u;
 )",
      {}},
-    {"punctual", ", all of it from its axis (Pettineo 2016)", {"integral"}, "    return $0 * max(cosine, 0.0);\n", {}},
+    {"punctual", ", all of it from its axis (Pettineo 2016)", {"integral"}, "    return @max(cosine, 0.0);\n", {}},
     {"hill",
      "by Hill's fit (Pettineo 2016)",
-     {"scale", "bias", "knee", "slope", "integral"},
-     R"(    float x = 0.36 * cosine;
-    float y = choose(abs(x) <= $2, $3 * (x + $2) * (x + $2), clamp(cosine, 0.0, 1.0));
-    return $4 * ($0 * y + $1);
+     {"scale", "bias", "knee", "slope"},
+     R"(    float y = choose(abs(cosine) <= $2, $3 * (cosine + $2) * (cosine + $2), clamp(cosine, 0.0, 1.0));
+    return $0 * y + $1;
 )",
      {}},
     {"meder",
      "as a difference of two integrals over the hemisphere (Meder and Bruederlin 2018)",
-     {"sharpness", "cosine_sharpness", "product", "difference"},
-     R"(    float u = sqrt($2 * max(1.0 + cosine, 0.0) + $3);
-    float along = ($0 * cosine + $1) / u;
-    float amplitude = exp(-$2 * max(1.0 - cosine, 0.0) / (u + $0 + $1));
-    return 32.7080 * amplitude * hemisphere_integral(u, along) - 31.7003 * hemisphere_integral($0, cosine);
+     {"sharpness", "product", "difference", "sum", "mean", "swing", "t"},
+     R"(    float u = sqrt($1 * max(1.0 + cosine, 0.0) + $2);
+    float along = ($0 * cosine + 0.0315) / u;
+    float amplitude = 32.708 * exp(-$1 * max(1.0 - cosine, 0.0) / (u + $3));
+    return amplitude * hemisphere_integral(u, along) - $4 - $5 * hyperbolic_tangent($6 * cosine);
 )",
-     {k_hemisphere}},
+     {k_tanh, k_hemisphere}},
     {"tokuyoshi",
      "by an error function (Tokuyoshi 2024)",
-     {"t", "tail", "scale", "away", "range"},
+     {"t", "base", "slope", "peak"},
      R"(    float tc = $0 * cosine;
-    float smooth_part = cosine * complementary_error(-tc) + $1;
-    float gauss = exp(-tc * tc) - exp(-$0 * $0);
-    return $3 + $4 * (0.5 * smooth_part + $2 * gauss);
+    return $1 + $2 * cosine * complementary_error(-tc) + $3 * exp(-tc * tc);
 )",
      {k_erfc}},
     {"odd_exact",
      ": its odd part, and the root of an even one",
-     {"odd", "middle", "fall", "curve", "ends"},
+     {"odd", "middle", "fall", "ends"},
      R"(    float x = cosine * cosine;
-    float even = sqrt($1 * exp(-$2 * x) + $4 * x);
+    float even = sqrt($1 * exp(-$2 * x) + $3 * x);
     return max($0 * cosine + even, 0.0);
 )",
      {}},
@@ -118,9 +128,9 @@ float away(float s) {
 }
 )"}};
 
-const std::vector<ShaderFunction> k_odd_constants = {
-    {"across",
-     R"(/// Returns the irradiance of a lobe across its axis, over 2 pi: e^-s I_1(s) / s (Abramowitz and Stegun 9.8.3, 9.8.4).
+const ShaderFunction k_across = {
+    "across",
+    R"(/// Returns the irradiance of a lobe across its axis, over 2 pi: e^-s I_1(s) / s (Abramowitz and Stegun 9.8.3, 9.8.4).
 float across(float s) {
     float x = s / 3.75;
     float y = x * x;
@@ -130,21 +140,7 @@ float across(float s) {
     large = 0.39894228 + z * (-0.03988024 + z * (-0.00362018 + z * (0.00163801 + z * (-0.01031555 + z * large))));
     return choose(s < 3.75, exp(-s) * small, large / (s * sqrt(max(s, 1.0))));
 }
-)"},
-    {"integral", R"(/// Returns the integral of a lobe over the sphere, over 2 pi.
-float integral(float s) {
-    float series = 2.0 - s * (2.0 - s * (1.3333333 - s * (0.66666667 - s * (0.26666667 - s * 0.088888889))));
-    return choose(s < 0.1, series, (1.0 - exp(-2.0 * s)) / s);
-}
-)"},
-    {"mean_cosine", R"(/// Returns the mean cosine of a lobe to its axis, coth(s) - 1 / s.
-float mean_cosine(float s) {
-    float y = s * s;
-    float series = s * (0.33333333 - y * (0.022222222 - y * (0.0021164021 - y * 0.00021164021)));
-    float decay = exp(-2.0 * s);
-    return choose(s < 0.5, series, (1.0 + decay) / (1.0 - decay) - 1.0 / max(s, 0.5));
-}
-)"}};
+)"};
 
 /// The beginning of lobe_irradiance.
 constexpr std::string_view k_fitted_head = R"(float lobe_irradiance(vec3 axis, vec3 n) {
@@ -153,24 +149,34 @@ constexpr std::string_view k_fitted_head = R"(float lobe_irradiance(vec3 axis, v
 )";
 
 constexpr std::string_view k_fitted_tokuyoshi =
-    R"(    float t = s * sqrt(((s + 2.73608316113) * s + 17.0212977817) / (2.0 * (((s + 4.01008267285) * s + 15.2191562631) * s + 76.0878962724)));
+    R"(    float t = s * sqrt(((s + 2.7360832) * s + 17.021298) / (2.0 * (((s + 4.0100827) * s + 15.219156) * s + 76.087896)));
     float dark = 6.2831855 * away(s);
-    return tokuyoshi(cosine, t, complementary_error(t), 0.28209479 / t, dark, 6.2831855 * towards(s) - dark);
+    float slope = 3.1415927 * towards(s) - 0.5 * dark;
+    float peak = 0.56418958 * slope / t;
+    float base = dark + slope * complementary_error(t) - peak * exp(-t * t);
+    return tokuyoshi(cosine, t, base, slope, peak);
 }
 )";
 
-constexpr std::string_view k_fitted_odd = R"(    float whole = integral(s);
-    float middle = across(s) / whole;
-    float ends = 0.5 * (towards(s) + away(s)) / whole;
-    whole *= 6.2831855;
-    float slope = ends * ends - middle * middle * exp(-fall - curve);
-    return $0(cosine, 0.5 * whole * mean_cosine(s), whole * whole * middle * middle, fall, curve, whole * whole * slope);
+/// The odd part is exactly half the difference of the irradiances at the axis and opposite to it, times the cosine.
+constexpr std::string_view k_fitted_odd = R"(    float bright = 3.1415927 * towards(s);
+    float dark = 3.1415927 * away(s);
+    float middle = 6.2831855 * across(s);
+    middle *= middle;
+)";
+constexpr std::string_view k_fitted_odd_1 =
+    R"(    float ends = (bright + dark) * (bright + dark) - middle * exp(-fall);
+    return odd_exact(cosine, bright - dark, middle, fall, ends);
+}
+)";
+constexpr std::string_view k_fitted_odd_2 =
+    R"(    float ends = (bright + dark) * (bright + dark) - middle * exp(-fall - curve);
+    return odd_exact_2(cosine, bright - dark, middle, fall, curve, ends);
 }
 )";
 
 constexpr std::string_view k_fall_1 =
     R"(    float fall = s * s * (0.15544454 + s * (0.02048363 + 0.0067609595 * s)) / (1.0 + s * (0.16346704 + s * (0.04498634 + 0.0119663 * s)));
-    float curve = 0.0;
 )";
 constexpr std::string_view k_fall_2 =
     R"(    float fall = s * s * (0.17497065 + s * (0.05765063 + 0.034785649 * s)) / (1.0 + s * (0.38770256 + s * (0.15044952 + 0.06156752 * s)));
@@ -178,35 +184,78 @@ constexpr std::string_view k_fall_2 =
 )";
 
 ShaderFunction function_of(const Formula& formula, const std::vector<std::string>& values,
-                           const std::string& parameters) {
+                           const std::string& parameters, const std::string& factor) {
     std::string body;
     for (std::size_t i = 0; i < formula.body.size(); ++i)
         if (formula.body[i] == '$')
             body += values[static_cast<std::size_t>(formula.body[++i] - '0')];
+        else if (formula.body[i] == '@')
+            body += factor;
         else
             body += formula.body[i];
+    join_signs(body);
     const bool joined = formula.comment.front() == ',' || formula.comment.front() == ':';
-    return {std::string(formula.name), "/// Returns the irradiance of a lobe" + std::string(joined ? "" : " ") +
-                                           std::string(formula.comment) + ".\nfloat " + std::string(formula.name) +
-                                           "(float cosine" + parameters + ") {\n" + body + "}\n"};
+    return {std::string(formula.name),
+            "/// Returns the irradiance of a lobe" + std::string(joined ? "" : " ") + std::string(formula.comment) +
+                (has_factor(formula) && factor.empty() ? "; its caller scales it" : "") + ".\nfloat " +
+                std::string(formula.name) + "(float cosine" + parameters + ") {\n" + body + "}\n"};
+}
+
+/// The constants (mean, swing, t) of 31.7003 times the integral over the hemisphere, mean + swing tanh(t cosine).
+std::array<double, 3> meder_hemisphere(double l) {
+    const double t = l * std::sqrt(l) * (0.8494 * l + 5.4219) / (l * (l + 6.2201) + 10.2415), a = std::tanh(l / 2);
+    const double mean = 31.7003 * 4 * k_pi * a / (l * (1 + a) * (1 + a));
+    return {mean, mean * a / std::tanh(t), t};
 }
 
 }  // namespace
 
+void join_signs(std::string& text) {
+    for (const auto& [from, to] : {std::pair{"+ -", "- "}, std::pair{"- -", "+ "}})
+        for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += 2) text.replace(at, 3, to);
+}
+
 const Formula& formula_of(SgIrradiance kind) { return k_formulae[static_cast<std::size_t>(kind)]; }
 
-std::vector<ShaderFunction> with_constants(const Formula& formula, const std::vector<std::string>& constants) {
-    std::vector<ShaderFunction> list = formula.functions;
-    list.push_back(function_of(formula, constants, ""));
+bool has_factor(const Formula& formula) { return formula.body.find('@') != std::string_view::npos; }
+
+std::vector<double> folded(SgIrradiance kind, std::span<const float> constants) {
+    const std::vector<double> k(constants.begin(), constants.end());
+    switch (kind) {
+        case SgIrradiance::inner_product:
+            return {k[3], k[0], k[1], k[2]};
+        case SgIrradiance::hill:
+            return {k[4] * k[0], k[4] * k[1], k[2] / 0.36, k[3] * 0.36 * 0.36};
+        case SgIrradiance::meder: {
+            const auto [mean, swing, t] = meder_hemisphere(k[0]);
+            return {k[0], k[2], k[3], k[0] + k[1], mean, swing, t};
+        }
+        case SgIrradiance::tokuyoshi: {
+            const double t = k[0], peak = k[4] * k[2];
+            return {t, k[3] + k[4] * k[1] / 2 - peak * std::exp(-t * t), k[4] / 2, peak};
+        }
+        case SgIrradiance::odd_exact:
+            return {k[0], k[1], k[2], k[4]};
+        default:
+            return k;
+    }
+}
+
+std::vector<ShaderFunction> functions_of(SgIrradiance kind, float least_sharpness) {
+    std::vector<ShaderFunction> list = formula_of(kind).functions;
+    if (kind == SgIrradiance::meder && least_sharpness < 2) list.front() = k_precise_tanh;
     return list;
 }
 
-std::vector<ShaderFunction> with_parameters(const Formula& formula) {
-    std::vector<ShaderFunction> list = formula.functions;
+ShaderFunction with_constants(const Formula& formula, const std::vector<std::string>& constants) {
+    return function_of(formula, constants, "", "");
+}
+
+ShaderFunction with_parameters(const Formula& formula) {
     std::string parameters;
     for (const std::string_view name : formula.constants) parameters += ", float " + std::string(name);
-    list.push_back(function_of(formula, {formula.constants.begin(), formula.constants.end()}, parameters));
-    return list;
+    return function_of(formula, {formula.constants.begin(), formula.constants.end()}, parameters,
+                       std::string(formula.constants[0]) + " * ");
 }
 
 Result<std::vector<ShaderFunction>> fitted_functions(SgIrradiance kind) {
@@ -214,16 +263,17 @@ Result<std::vector<ShaderFunction>> fitted_functions(SgIrradiance kind) {
     if (kind == SgIrradiance::tokuyoshi)
         body = k_fitted_tokuyoshi;
     else if (kind == SgIrradiance::odd_exact)
-        body = std::string(k_fall_1) + shader_text::filled(k_fitted_odd, {"odd_exact"});
+        body = std::string(k_fall_1).append(k_fitted_odd).append(k_fitted_odd_1);
     else if (kind == SgIrradiance::odd_exact_2)
-        body = std::string(k_fall_2) + shader_text::filled(k_fitted_odd, {"odd_exact_2"});
+        body = std::string(k_fall_2).append(k_fitted_odd).append(k_fitted_odd_2);
     else
         return Error{
-            "the constants of this evaluator are made for a sharpness that is known before: a shader that "
-            "finds it in the coefficients cannot have them; use odd-exact-2"};
-    std::vector<ShaderFunction> list = with_parameters(formula_of(kind));
+            "this evaluator is a series whose terms, and their number, depend on the sharpness, which a shader finds "
+            "only in the coefficients; use odd-exact-2"};
+    std::vector<ShaderFunction> list = formula_of(kind).functions;
+    list.push_back(with_parameters(formula_of(kind)));
     list.insert(list.end(), k_constants.begin(), k_constants.end());
-    if (kind != SgIrradiance::tokuyoshi) list.insert(list.end(), k_odd_constants.begin(), k_odd_constants.end());
+    if (kind != SgIrradiance::tokuyoshi) list.push_back(k_across);
     list.push_back(
         {"lobe_irradiance", "/// Returns the irradiance of a lobe; `axis` is its axis times its sharpness.\n" +
                                 std::string(k_fitted_head) + body});

@@ -2,6 +2,8 @@
 #include "core/basis/sg/sg_shader.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "core/basis/direction_text.h"
 #include "core/basis/sg/sg_formulae.h"
@@ -12,9 +14,11 @@ namespace {
 
 using shader_text::literal;
 
+using Constants = std::vector<double>;
+
 /// The constants that all lobes but ambient ones share; null if they differ.
-const std::vector<float>* shared_constants(const std::vector<std::vector<float>>& constants) {
-    const std::vector<float>* shared = nullptr;
+const Constants* shared_constants(const std::vector<Constants>& constants) {
+    const Constants* shared = nullptr;
     for (const auto& of_lobe : constants) {
         if (of_lobe.empty()) continue;
         if (shared != nullptr && *shared != of_lobe) return nullptr;
@@ -23,37 +27,69 @@ const std::vector<float>* shared_constants(const std::vector<std::vector<float>>
     return shared;
 }
 
-std::vector<std::string> literals(std::span<const float> values) {
+std::vector<std::string> literals(std::span<const double> values) {
     std::vector<std::string> texts;
-    for (const float value : values) texts.push_back(literal(value));
+    for (const double value : values) texts.push_back(literal(value));
     return texts;
 }
 
-/// The arguments of a call: the cosine, and the constants if they are parameters.
-std::string arguments(const Lobe& lobe, const std::string& direction, std::span<const float> constants) {
-    std::string text = shader_text::dot_product(direction, lobe.axis);
-    for (const float constant : constants) text += ", " + literal(constant);
-    return text;
+/// "name(first, 0.5, 2.0)"; `constants` may be null.
+std::string call(const std::string& name, const std::string& first, const Constants* constants) {
+    std::string text = name + "(" + first;
+    if (constants != nullptr)
+        for (const auto& constant : literals(*constants)) text += ", " + constant;
+    return text + ")";
 }
 
-/// Clenshaw's sum of a Legendre series, unrolled; `k` holds the triples (term, (2l + 1) / (l + 1), (l + 1) / (l + 2)).
-ShaderFunction series_function(const std::string& name, std::span<const float> k) {
-    const std::size_t terms = k.size() / 3;
-    std::string body;
-    for (std::size_t l = terms; l-- > 0;) {
-        const auto b = [](std::size_t i) { return "b" + std::to_string(i); };
-        std::string sum = literal(k[3 * l]);
-        if (l + 1 < terms) sum += " + " + literal(k[3 * l + 1]) + " * cosine * " + b(l + 1);
-        if (l + 2 < terms) sum += " - " + literal(k[3 * l + 2]) + " * " + b(l + 2);
-        body += l == 0 ? "    return " + sum + ";\n" : "    float " + b(l) + " = " + sum + ";\n";
+std::string cosine_to(const Lobe& lobe, const std::string& direction) {
+    return shader_text::dot_product(direction, lobe.axis);
+}
+
+/// The irradiance of a lobe as (odd, a_0, a_1, ...): odd c + sum of a_k T_k(2 c^2 - 1), c the cosine, T_k Chebyshev's
+/// polynomials. `k` holds the triples (term, ...) of its Legendre series, of which the only odd term is the first.
+Constants chebyshev_series(std::span<const float> k) {
+    std::vector<double> even;
+    for (std::size_t l = 0; 3 * l < k.size(); ++l) even.push_back(l % 2 == 0 ? static_cast<double>(k[3 * l]) : 0);
+    const std::size_t count = (even.size() + 1) / 2;
+    Constants series = {k.size() > 3 ? static_cast<double>(k[3]) : 0};
+    series.resize(1 + count);
+    for (std::size_t node = 0; node < count; ++node) {
+        const double angle = k_pi * (static_cast<double>(node) + 0.5) / static_cast<double>(count);
+        const double value = gaussian::zonal_sum(even, std::cos(angle / 2)) / static_cast<double>(count);
+        for (std::size_t i = 0; i < count; ++i)
+            series[1 + i] += (i == 0 ? value : 2 * value * std::cos(static_cast<double>(i) * angle));
     }
-    return {name, "/// Returns the irradiance of a lobe: the sum of its Legendre series (Clenshaw 1955).\nfloat " +
-                      name + "(float cosine) {\n" + body + "}\n"};
+
+    // Leave out what float32 does not see; the integral is four times the first term.
+    while (series.size() > 2 && std::abs(series.back()) < 1e-8 * 4 * k[0]) series.pop_back();
+    return series;
+}
+
+/// Clenshaw's sum of chebyshev_series, unrolled.
+ShaderFunction series_function(const std::string& name, const Constants& series) {
+    const auto a = [&](std::size_t i) { return literal(series[1 + i]); };
+    const auto b = [&](std::size_t i) { return i + 2 == series.size() ? a(i) : "b" + std::to_string(i); };
+    const std::size_t count = series.size() - 1;
+    std::string body;
+    if (count > 1) body += "    float y = 2.0 * cosine * cosine - 1.0;\n";
+    for (std::size_t i = count - 1; i-- > 1;)
+        body += "    float " + b(i) + " = " + a(i) + " + 2.0 * y * " + b(i + 1) +
+                (i + 2 < count ? " - " + b(i + 2) : "") + ";\n";
+    body += "    return " + literal(series[0]) + " * cosine + " + a(0) + (count > 1 ? " + y * " + b(1) : "") +
+            (count > 2 ? " - " + b(2) : "") + ";\n";
+    join_signs(body);
+    return {name,
+            "/// Returns the irradiance of a lobe: its odd part, and a Chebyshev series for the even one (Clenshaw "
+            "1955).\nfloat " +
+                name + "(float cosine) {\n" + body + "}\n"};
 }
 
 /// Irradiance by series, a function for each kind of lobe.
 ShaderCode series_irradiance(std::span<const Lobe> lobes, const std::vector<std::vector<float>>& constants) {
-    const bool one = shared_constants(constants) != nullptr;
+    const bool one = std::count_if(constants.begin(), constants.end(), [&](const auto& k) {
+                         return !k.empty() && k != *std::find_if(constants.begin(), constants.end(),
+                                                                 [](const auto& other) { return !other.empty(); });
+                     }) == 0;
     std::vector<ShaderFunction> functions;
     std::vector<const std::vector<float>*> known;
     std::vector<std::string> weights;
@@ -64,73 +100,95 @@ ShaderCode series_irradiance(std::span<const Lobe> lobes, const std::vector<std:
         }
         const auto same = std::find_if(known.begin(), known.end(), [&](const auto* k) { return *k == constants[i]; });
         const std::string name = one ? "series" : "series_" + std::to_string(same - known.begin());
-        if (same == known.end()) {
-            known.push_back(&constants[i]);
-            functions.push_back(series_function(name, constants[i]));
-        }
-        weights.push_back(name + "(" + arguments(lobes[i], "n", {}) + ")");
+        weights.push_back(call(name, cosine_to(lobes[i], "n"), nullptr));
+        if (same != known.end()) continue;
+        known.push_back(&constants[i]);
+        functions.push_back(series_function(name, chebyshev_series(constants[i])));
     }
     ShaderCode code = shader_text::sum_of(weights, "e");
     code.functions = std::move(functions);
     return code;
 }
 
+/// Whether float32 knows sharpness * (cosine - 1) well enough: the cosine is off by 1.2e-7, and by the axis's length.
+bool is_soft(const Lobe& lobe) {
+    double squared = 0;
+    for (const double x : {lobe.axis.x, lobe.axis.y, lobe.axis.z}) squared += x * x;
+    return lobe.sharpness * (1.2e-7 + std::abs(squared - 1) / 2) < 6e-6;
+}
+
+/// The function of one lobe: `value` is its sharpness, `half` minus half of it.
+ShaderFunction lobe_function(bool soft, const std::string& value, const std::string& half,
+                             const std::string& parameters) {
+    if (soft)
+        return {"lobe", "/// Returns a spherical Gaussian at a cosine to its axis.\nfloat lobe(float cosine" +
+                            parameters + ") {\n    return exp(" + value + " * (cosine - 1.0));\n}\n"};
+    return {"lobe",
+            "/// Returns a spherical Gaussian. The distance to the axis is more precise than the cosine.\n"
+            "float lobe(vec3 w, vec3 axis" +
+                parameters + ") {\n    vec3 d = w - axis;\n    return exp(" + half + " * dot(d, d));\n}\n"};
+}
+
 }  // namespace
 
 ShaderCode radiance(std::span<const Lobe> lobes) {
-    std::vector<std::vector<float>> sharpness;
+    std::vector<Constants> sharpness;
+    bool soft = true, all_ambient = true;
     for (const Lobe& lobe : lobes) {
-        sharpness.emplace_back();
-        if (lobe.sharpness > 0) sharpness.back().push_back(lobe.sharpness);
+        const bool ambient = lobe.sharpness == 0;
+        sharpness.push_back(ambient ? Constants() : Constants{lobe.sharpness});
+        soft = soft && (ambient || is_soft(lobe));
+        all_ambient = all_ambient && ambient;
     }
-    const auto* shared = shared_constants(sharpness);
+    const Constants* shared = shared_constants(sharpness);
     std::vector<std::string> weights;
-    for (std::size_t i = 0; i < lobes.size(); ++i)
-        weights.push_back(sharpness[i].empty() ? "1.0"
-                                               : "lobe(" +
-                                                     arguments(lobes[i], "w",
-                                                               shared ? std::span<const float>()
-                                                                      : std::span<const float>(sharpness[i])) +
-                                                     ")");
+    for (std::size_t i = 0; i < lobes.size(); ++i) {
+        const std::string place = soft ? cosine_to(lobes[i], "w") : "w, " + literal(lobes[i].axis);
+        weights.push_back(sharpness[i].empty() ? "1.0" : call("lobe", place, shared ? nullptr : &sharpness[i]));
+    }
     ShaderCode code = shader_text::sum_of(weights, "sum");
-    const std::string value = shared ? literal(shared->front()) : "sharpness";
-    if (std::any_of(sharpness.begin(), sharpness.end(), [](const auto& k) { return !k.empty(); }))
-        code.functions.push_back(
-            {"lobe", std::string("/// Returns a spherical Gaussian at a cosine to its axis.\n") +
-                         (shared ? "float lobe(float cosine) {\n" : "float lobe(float cosine, float sharpness) {\n") +
-                         "    return exp(" + value + " * (cosine - 1.0));\n}\n"});
+    if (shared)
+        code.functions = {lobe_function(soft, literal(shared->front()), literal(-0.5 * shared->front()), "")};
+    else if (!all_ambient)
+        code.functions = {lobe_function(soft, "sharpness", "-0.5 * sharpness", ", float sharpness")};
     return code;
 }
 
 ShaderCode irradiance(SgIrradiance kind, std::span<const Lobe> lobes,
                       const std::vector<std::vector<float>>& constants) {
     if (kind == SgIrradiance::exact) return series_irradiance(lobes, constants);
-    const auto* shared = shared_constants(constants);
+    std::vector<Constants> all;
+    float least_sharpness = std::numeric_limits<float>::infinity();
+    for (std::size_t i = 0; i < lobes.size(); ++i) {
+        all.push_back(constants[i].empty() ? Constants() : folded(kind, constants[i]));
+        if (!constants[i].empty()) least_sharpness = std::min(least_sharpness, lobes[i].sharpness);
+    }
+    const Constants* shared = shared_constants(all);
     const Formula& formula = formula_of(kind);
+    const bool factored = shared != nullptr && has_factor(formula);
     std::vector<std::string> weights;
     for (std::size_t i = 0; i < lobes.size(); ++i)
-        weights.push_back(constants[i].empty() ? literal(k_pi)
-                                               : std::string(formula.name) + "(" +
-                                                     arguments(lobes[i], "n",
-                                                               shared ? std::span<const float>()
-                                                                      : std::span<const float>(constants[i])) +
-                                                     ")");
+        weights.push_back(all[i].empty()
+                              ? literal(k_pi / (factored ? shared->front() : 1))
+                              : call(std::string(formula.name), cosine_to(lobes[i], "n"), shared ? nullptr : &all[i]));
     ShaderCode code = shader_text::sum_of(weights, "e");
-    if (std::any_of(constants.begin(), constants.end(), [](const auto& k) { return !k.empty(); }))
-        code.functions = shared ? with_constants(formula, literals(*shared)) : with_parameters(formula);
+    if (factored) code.result = literal(shared->front()) + " * e";
+    if (std::isinf(least_sharpness)) return code;
+    code.functions = functions_of(kind, least_sharpness);
+    code.functions.push_back(shared ? with_constants(formula, literals(*shared)) : with_parameters(formula));
     return code;
 }
 
 ShaderCode fitted_radiance(std::size_t count) {
     ShaderCode code{{}, {}, "sum"};
-    code.functions.push_back({"lobe",
-                              "/// Returns a spherical Gaussian of `axis`, which is its axis times its sharpness.\n"
-                              "float lobe(vec3 axis, vec3 w) {\n"
-                              "    float sharpness = length(axis);\n"
-                              "    float along = dot(axis, w);\n"
-                              "    // Above a sharpness of 10000 the axis alone counts.\n"
-                              "    float scale = min(1.0, 10000.0 / max(sharpness, 1.0));\n"
-                              "    return exp(scale * (along - sharpness));\n}\n"});
+    code.functions.push_back(
+        {"lobe",
+         "/// Returns a spherical Gaussian; `axis` is its axis times its sharpness, of which 10000 is the most.\n"
+         "float lobe(vec3 axis, vec3 w) {\n"
+         "    float sharpness = length(axis);\n"
+         "    // The distance to the axis is more precise than the cosine.\n"
+         "    vec3 d = w - axis / max(sharpness, 1.0e-6);\n"
+         "    return exp(-0.5 * min(sharpness, 10000.0) * dot(d, d));\n}\n"});
     for (std::size_t i = 0; i < count; ++i)
         code.statements += std::string("    ") + (i == 0 ? "vec3 sum = " : "sum += ") +
                            shader_text::coefficient(2 * i) + " * lobe(" + shader_text::coefficient(2 * i + 1) +
