@@ -81,6 +81,12 @@ int main(int count, char** arguments) {
             if (!test::encoder_for(name, storage).empty())
                 writer.add({name.c_str(), storage.name.data(), "unpack", nullptr});
     }
+    // Lobes that no listed basis has: sharp ones, differing sharpness, an ambient one.
+    writer.add({"sg3@300", "exact", "radiance", nullptr});
+    constexpr const char* mixed = "sg{0 0 1 5;1 0 0 20;ambient;-0.6 0.8 0 0.5}";
+    for (const char* evaluator : {"inner-product", "punctual", "hill", "tokuyoshi", "odd-exact-2", "exact"})
+        writer.add({mixed, evaluator, "irradiance", nullptr});
+    writer.add({mixed, "exact", "radiance", nullptr});
     std::ofstream file(arguments[1]);
     file << writer.result();
     return file.flush() ? 0 : 1;

@@ -7,8 +7,12 @@
 #include <cmath>
 #include <utility>
 
+#include "core/math/shader_text.h"
+
 namespace lobelia::sg_shader {
 namespace {
+
+using shader_text::literal;
 
 const ShaderFunction k_erfc = {"complementary_error", R"(/// Returns erfc(x), off by at most 1.2e-7 of it.
 float complementary_error(float x) {
@@ -29,7 +33,9 @@ float complementary_error(float x) {
 }
 )"};
 
-/// tanh of what is never small against 1 where it counts: sharpness of 2 and more.
+/// From this sharpness on, .0315 is a small change of it.
+constexpr double k_least_expanded = 1;
+
 const ShaderFunction k_tanh = {"hyperbolic_tangent", R"(/// Returns tanh(x), off by at most 1.2e-7.
 float hyperbolic_tangent(float x) {
     return 1.0 - 2.0 / (exp(min(2.0 * x, 80.0)) + 1.0);
@@ -80,7 +86,7 @@ const std::array<Formula, 8> k_formulae = {{
     float amplitude = 32.708 * exp(-$1 * max(1.0 - cosine, 0.0) / (u + $3));
     return amplitude * hemisphere_integral(u, along) - $4 - $5 * hyperbolic_tangent($6 * cosine);
 )",
-     {k_tanh, k_hemisphere}},
+     {k_precise_tanh, k_hemisphere}},
     {"tokuyoshi",
      "by an error function (Tokuyoshi 2024)",
      {"t", "base", "slope", "peak"},
@@ -201,12 +207,46 @@ ShaderFunction function_of(const Formula& formula, const std::vector<std::string
                 std::string(formula.name) + "(float cosine" + parameters + ") {\n" + body + "}\n"};
 }
 
-/// The constants (mean, swing, t) of 31.7003 times the integral over the hemisphere, mean + swing tanh(t cosine).
-std::array<double, 3> meder_hemisphere(double l) {
-    const double t = l * std::sqrt(l) * (0.8494 * l + 5.4219) / (l * (l + 6.2201) + 10.2415), a = std::tanh(l / 2);
-    const double mean = 31.7003 * 4 * k_pi * a / (l * (1 + a) * (1 + a));
-    return {mean, mean * a / std::tanh(t), t};
+/// The cosine's sharpness in Meder and Bruederlin's difference: max(0, cos) is about 32.7080 SG(.0315) - 31.7003.
+constexpr double k_cosine_sharpness = 0.0315;
+
+/// The integral of a lobe over the hemisphere is mean + swing tanh(rate s cosine).
+struct HemisphereIntegral {
+    double mean, swing, rate;
+    explicit HemisphereIntegral(double s) {
+        const double a = std::tanh(s / 2);
+        rate = std::sqrt(s) * (0.8494 * s + 5.4219) / (s * (s + 6.2201) + 10.2415);
+        mean = 4 * k_pi * a / (s * (1 + a) * (1 + a));
+        swing = mean * a / std::tanh(rate * s);
+    }
+};
+
+/// The code of f(s + d) - f(s), |d| <= .0315: d times the parabola through the slopes at three Chebyshev nodes.
+std::string change_text(double s, double HemisphereIntegral::*f) {
+    const double h = k_cosine_sharpness * std::sqrt(0.75), nearly_0 = 1e-3 * h;
+    const auto slope = [&](double d) { return (HemisphereIntegral(s + d).*f - HemisphereIntegral(s).*f) / d; };
+    const double middle = (slope(nearly_0) + slope(-nearly_0)) / 2;
+    const double linear = (slope(h) - slope(-h)) / (2 * h), square = (slope(h) + slope(-h) - 2 * middle) / (2 * h * h);
+    return "d * (" + literal(middle) + " + d * (" + literal(linear) + " + " + literal(square) + " * d))";
 }
+
+/// Meder and Bruederlin's formula without the cancellation of its two integrals, of which the difference is 1/65: the
+/// product has the sharpness s + d, |d| <= .0315.
+constexpr std::string_view k_meder_body =
+    R"(    // The product with the cosine's lobe: its sharpness is larger by d, its amplitude by `fade`.
+    float u = sqrt($0 * max(1.0 + cosine, 0.0) + $1);
+    float d = ($0 * cosine + 0.00099225) / (u + $2);
+    float x = $0 * max(1.0 - cosine, 0.0) / (u + $3);
+    float fade = -x * (1.0 - x * (0.5 - x * (0.16666667 - 0.041666667 * x)));
+    // The integral of the lobe over the hemisphere, and how much more that of the product is.
+    float blend = hyperbolic_tangent($4 * cosine);
+    float v = $5 + $6 * ($2 * cosine + 0.0315);
+    v *= 1.0 - 0.33333333 * v * v;
+    float rise = v * (1.0 - blend * blend) / (1.0 + blend * v);
+    float whole = $7 + $8 * blend;
+    float change = $9 + $8 * rise + @ * (blend + rise);
+    return 1.0077 * whole + 32.708 * (fade * whole + (1.0 + fade) * change);
+)";
 
 }  // namespace
 
@@ -227,8 +267,8 @@ std::vector<double> folded(SgIrradiance kind, std::span<const float> constants) 
         case SgIrradiance::hill:
             return {k[4] * k[0], k[4] * k[1], k[2] / 0.36, k[3] * 0.36 * 0.36};
         case SgIrradiance::meder: {
-            const auto [mean, swing, t] = meder_hemisphere(k[0]);
-            return {k[0], k[2], k[3], k[0] + k[1], mean, swing, t};
+            const HemisphereIntegral lobe(k[0]);
+            return {k[0], k[2], k[3], k[0] + k[1], 31.7003 * lobe.mean, 31.7003 * lobe.swing, lobe.rate * k[0]};
         }
         case SgIrradiance::tokuyoshi: {
             const double t = k[0], peak = k[4] * k[2];
@@ -242,9 +282,30 @@ std::vector<double> folded(SgIrradiance kind, std::span<const float> constants) 
 }
 
 std::vector<ShaderFunction> functions_of(SgIrradiance kind, float least_sharpness) {
-    std::vector<ShaderFunction> list = formula_of(kind).functions;
-    if (kind == SgIrradiance::meder && least_sharpness < 2) list.front() = k_precise_tanh;
-    return list;
+    if (kind == SgIrradiance::meder && least_sharpness >= k_least_expanded) return {k_tanh};
+    return formula_of(kind).functions;
+}
+
+ShaderFunction meder_function(const std::string& name, std::span<const float> constants) {
+    const double s = constants[0];
+    Formula formula = formula_of(SgIrradiance::meder);
+    formula.name = name;
+    if (s < k_least_expanded) return with_constants(formula, literals(folded(SgIrradiance::meder, constants)));
+    const HemisphereIntegral lobe(s);
+    const double difference = s - k_cosine_sharpness;
+    formula.body = k_meder_body;
+    return function_of(formula,
+                       {literal(2 * s * k_cosine_sharpness), literal(difference * difference), literal(s),
+                        literal(s + k_cosine_sharpness), literal(lobe.rate * s),
+                        literal(lobe.rate * k_cosine_sharpness), change_text(s, &HemisphereIntegral::rate),
+                        literal(lobe.mean), literal(lobe.swing), change_text(s, &HemisphereIntegral::mean)},
+                       "", change_text(s, &HemisphereIntegral::swing));
+}
+
+std::vector<std::string> literals(std::span<const double> values) {
+    std::vector<std::string> texts;
+    for (const double value : values) texts.push_back(literal(value));
+    return texts;
 }
 
 ShaderFunction with_constants(const Formula& formula, const std::vector<std::string>& constants) {

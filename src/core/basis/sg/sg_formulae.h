@@ -14,6 +14,9 @@ namespace lobelia::sg_shader {
 /// Replaces sums of a negative literal by differences: "x + -2.0" becomes "x - 2.0".
 void join_signs(std::string& text);
 
+/// Each number as a literal.
+[[nodiscard]] std::vector<std::string> literals(std::span<const double> values);
+
 /// E of a unit lobe as a function of the cosine between normal and axis, and of the constants of its sharpness.
 struct Formula {
     std::string_view name;
@@ -34,6 +37,8 @@ struct Formula {
 [[nodiscard]] std::vector<ShaderFunction> functions_of(SgIrradiance kind, float least_sharpness);
 /// The function with its constants printed, without the common factor if it has one.
 [[nodiscard]] ShaderFunction with_constants(const Formula& formula, const std::vector<std::string>& constants);
+/// The function of `meder` for one lobe, from its constants as sg_irradiance.cpp has them.
+[[nodiscard]] ShaderFunction meder_function(const std::string& name, std::span<const float> constants);
 /// The function with its constants as parameters.
 [[nodiscard]] ShaderFunction with_parameters(const Formula& formula);
 

@@ -27,12 +27,6 @@ const Constants* shared_constants(const std::vector<Constants>& constants) {
     return shared;
 }
 
-std::vector<std::string> literals(std::span<const double> values) {
-    std::vector<std::string> texts;
-    for (const double value : values) texts.push_back(literal(value));
-    return texts;
-}
-
 /// "name(first, 0.5, 2.0)"; `constants` may be null.
 std::string call(const std::string& name, const std::string& first, const Constants* constants) {
     std::string text = name + "(" + first;
@@ -66,7 +60,8 @@ Constants chebyshev_series(std::span<const float> k) {
 }
 
 /// Clenshaw's sum of chebyshev_series, unrolled.
-ShaderFunction series_function(const std::string& name, const Constants& series) {
+ShaderFunction series_function(const std::string& name, std::span<const float> constants) {
+    const Constants series = chebyshev_series(constants);
     const auto a = [&](std::size_t i) { return literal(series[1 + i]); };
     const auto b = [&](std::size_t i) { return i + 2 == series.size() ? a(i) : "b" + std::to_string(i); };
     const std::size_t count = series.size() - 1;
@@ -84,29 +79,22 @@ ShaderFunction series_function(const std::string& name, const Constants& series)
                 name + "(float cosine) {\n" + body + "}\n"};
 }
 
-/// Irradiance by series, a function for each kind of lobe.
-ShaderCode series_irradiance(std::span<const Lobe> lobes, const std::vector<std::vector<float>>& constants) {
-    const bool one = std::count_if(constants.begin(), constants.end(), [&](const auto& k) {
-                         return !k.empty() && k != *std::find_if(constants.begin(), constants.end(),
-                                                                 [](const auto& other) { return !other.empty(); });
-                     }) == 0;
-    std::vector<ShaderFunction> functions;
-    std::vector<const std::vector<float>*> known;
+/// Irradiance with a function for each kind of lobe: make(name, constants) writes it.
+template <class Make>
+ShaderCode irradiance_by_kinds(const std::string& name, std::span<const Lobe> lobes,
+                               const std::vector<std::vector<float>>& constants, const Make& make) {
+    std::vector<std::vector<float>> kinds;
+    for (const auto& k : constants)
+        if (!k.empty() && std::find(kinds.begin(), kinds.end(), k) == kinds.end()) kinds.push_back(k);
+    const auto name_of = [&](std::size_t kind) { return kinds.size() == 1 ? name : name + "_" + std::to_string(kind); };
     std::vector<std::string> weights;
     for (std::size_t i = 0; i < lobes.size(); ++i) {
-        if (constants[i].empty()) {
-            weights.push_back(literal(k_pi));
-            continue;
-        }
-        const auto same = std::find_if(known.begin(), known.end(), [&](const auto* k) { return *k == constants[i]; });
-        const std::string name = one ? "series" : "series_" + std::to_string(same - known.begin());
-        weights.push_back(call(name, cosine_to(lobes[i], "n"), nullptr));
-        if (same != known.end()) continue;
-        known.push_back(&constants[i]);
-        functions.push_back(series_function(name, chebyshev_series(constants[i])));
+        const auto kind = static_cast<std::size_t>(std::find(kinds.begin(), kinds.end(), constants[i]) - kinds.begin());
+        weights.push_back(constants[i].empty() ? literal(k_pi)
+                                               : call(name_of(kind), cosine_to(lobes[i], "n"), nullptr));
     }
     ShaderCode code = shader_text::sum_of(weights, "e");
-    code.functions = std::move(functions);
+    for (std::size_t kind = 0; kind < kinds.size(); ++kind) code.functions.push_back(make(name_of(kind), kinds[kind]));
     return code;
 }
 
@@ -156,12 +144,18 @@ ShaderCode radiance(std::span<const Lobe> lobes) {
 
 ShaderCode irradiance(SgIrradiance kind, std::span<const Lobe> lobes,
                       const std::vector<std::vector<float>>& constants) {
-    if (kind == SgIrradiance::exact) return series_irradiance(lobes, constants);
+    if (kind == SgIrradiance::exact) return irradiance_by_kinds("series", lobes, constants, series_function);
     std::vector<Constants> all;
     float least_sharpness = std::numeric_limits<float>::infinity();
     for (std::size_t i = 0; i < lobes.size(); ++i) {
         all.push_back(constants[i].empty() ? Constants() : folded(kind, constants[i]));
         if (!constants[i].empty()) least_sharpness = std::min(least_sharpness, lobes[i].sharpness);
+    }
+    if (kind == SgIrradiance::meder) {
+        ShaderCode code = irradiance_by_kinds("meder", lobes, constants, meder_function);
+        const auto called = functions_of(kind, least_sharpness);
+        if (!code.functions.empty()) code.functions.insert(code.functions.begin(), called.begin(), called.end());
+        return code;
     }
     const Constants* shared = shared_constants(all);
     const Formula& formula = formula_of(kind);
