@@ -135,6 +135,33 @@ function checkFormat(folder, name) {
   if (formats[name][1].decode) checkNumbers(name, formats[name][1], data, expected);
 }
 
+// Levels, layers, faces and slices, as they are and compressed by zstd.
+const shapes = {
+  levels: { layerCount: 0, faceCount: 1, pixelDepth: 0 }, array: { layerCount: 5, faceCount: 1, pixelDepth: 0 },
+  cube: { layerCount: 0, faceCount: 6, pixelDepth: 0 }, volume: { layerCount: 0, faceCount: 1, pixelDepth: 3 },
+};
+function checkShape(folder, shape, zstd) {
+  const name = `${shape}${zstd ? '-zstd' : ''}`, bytes = readFileSync(join(folder, `${name}.ktx2`));
+  const texture = ktx.read(new Uint8Array(bytes)), wanted = shapes[shape];
+  for (const [key, value] of Object.entries(wanted)) check(texture[key] === value, `${name}: ${key} ${texture[key]}`);
+  check(texture.supercompressionScheme === (zstd ? 2 : 0), `${name}: scheme`);
+  check(texture.dataFormatDescriptor[0].bytesPlane[0] === (zstd ? 0 : 4), `${name}: bytes of plane 0`);
+  check(texture.keyValue.KTXorientation === { cube: undefined, volume: 'rdi' }[shape] ||
+    (texture.keyValue.KTXorientation === 'rd' && wanted.faceCount === 1 && wanted.pixelDepth === 0), `${name}: orientation`);
+  const width = wanted.faceCount === 6 ? 8 : 12, images = Math.max(wanted.layerCount, 1) * wanted.faceCount;
+  const sizes = [0, 1, 2, 3].map((level) => 4 * images * Math.max(width >> level, 1) * Math.max(8 >> level, 1) *
+    Math.max(wanted.pixelDepth >> level, 1));
+  check(texture.levels.length === 4, `${name}: ${texture.levels.length} levels`);
+  check(texture.levels.every((level, i) => level.uncompressedByteLength === sizes[i]), `${name}: sizes of levels`);
+  const view = new DataView(bytes.buffer, bytes.byteOffset);
+  const begins = [0, 1, 2, 3].map((i) => Number(view.getBigUint64(80 + 24 * i, true)));
+  check(begins.every((begin, i) => (zstd || begin % 4 === 0) && (i === 0 || begin < begins[i - 1])), `${name}: ${begins}`);
+  const decode = zstd ? (data) => execFileSync('zstd', ['-d', '-c'], { input: data }) : (data) => data;
+  const expected = readFileSync(join(folder, `${name}.bin`));
+  const found = Buffer.concat(texture.levels.map((level) => Buffer.from(decode(level.levelData))));
+  check(Buffer.compare(found, expected) === 0, `${name}: bytes`);
+}
+
 // Check that a bake's textures match its manifest.
 function checkBake(folder) {
   const { layout } = JSON.parse(readFileSync(join(folder, 'bake.json')));
@@ -172,6 +199,7 @@ try {
     check(existsSync(join(folder, `${name}.ktx2`)), `${name}: no file`);
     checkFormat(folder, name);
   }
+  for (const shape of Object.keys(shapes)) for (const zstd of [false, true]) checkShape(join(folder, 'shapes'), shape, zstd);
   for (const bake of ['sh1', 'sg12']) checkBake(join(folder, bake));
 } finally {
   rmSync(folder, { recursive: true });

@@ -52,10 +52,31 @@ void make_texture(const std::filesystem::path& folder, PixelFormat pixel_format)
     encode_texels(pixel_format, k_width, k_height, pointers, data);
     const std::string name(format.name);
     auto file = StagedFile::create(folder / (name + ".ktx2")).value();
-    require(write_ktx2(file, {pixel_format, k_width, k_height, data, {{"lobelia.format", name}, {"a", "text"}}}));
+    require(write_ktx2(file, {pixel_format, k_width, k_height, {data}, {{"lobelia.format", name}, {"a", "text"}}}));
     require(file.commit());
     write(folder / (name + ".bin"), data);
     write(folder / (name + ".f32"), std::as_bytes(std::span(side_by_side)));
+}
+
+/// A texture of 12 x 8 texels, or a cube map of 8 x 8, with four levels, as NAME.ktx2 under shapes/ and its levels'
+/// bytes one after the other as NAME.bin.
+void make_shape(const std::filesystem::path& folder, const std::string& name, TextureFile texture) {
+    std::mt19937 generator(3);
+    texture.format = PixelFormat::rgb9e5;
+    texture.width = texture.faces == 6 ? 8 : 12;
+    texture.height = 8;
+    std::vector<std::vector<std::byte>> levels;
+    for (std::size_t level = 0; level < 4; ++level) {
+        levels.emplace_back(texture.images() * image_bytes(texture, level));
+        for (std::byte& b : levels.back()) b = static_cast<std::byte>(generator() % 7);
+    }
+    texture.levels.assign(levels.begin(), levels.end());
+    auto file = StagedFile::create(folder / (name + ".ktx2")).value();
+    require(write_ktx2(file, texture));
+    require(file.commit());
+    std::vector<std::byte> all;
+    for (const auto& level : levels) all.insert(all.end(), level.begin(), level.end());
+    write(folder / (name + ".bin"), all);
 }
 
 /// Every compatible storage; values that bytes and half floats hold exactly where possible.
@@ -76,6 +97,19 @@ void make_bake(const std::filesystem::path& folder, const std::string& codec) {
 int main(int argc, char** argv) {
     if (argc != 2) return 2;
     for (const lobelia::PixelFormat format : lobelia::pixel_formats()) lobelia::make_texture(argv[1], format);
+    const std::filesystem::path shapes = std::filesystem::path(argv[1]) / "shapes";
+    std::filesystem::create_directory(shapes);
+    for (const bool compressed : {false, true}) {
+        const std::string end = compressed ? "-zstd" : "";
+        const auto make = [&](const char* name, lobelia::TextureFile texture) {
+            texture.compressed = compressed;
+            lobelia::make_shape(shapes, name + end, texture);
+        };
+        make("levels", {});
+        make("array", {.layers = 5});
+        make("cube", {.faces = 6});
+        make("volume", {.depth = 3});
+    }
     lobelia::make_bake(std::filesystem::path(argv[1]) / "sh1", "sh1/moments/convolution");
     lobelia::make_bake(std::filesystem::path(argv[1]) / "sg12", "sg12/nnls/exact");
     return 0;

@@ -43,7 +43,7 @@ Status write_texture_of(StagedFile& file, const LightmapPage& page, const std::a
                          {format,
                           page.width,
                           page.height,
-                          data,
+                          {data},
                           {{"lobelia.channels", std::string(what)}, {"lobelia.scale", fmt::format("{}", scale)}}});
 }
 

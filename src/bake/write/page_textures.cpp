@@ -24,7 +24,7 @@ Metadata metadata_of(const TextureEntry& texture, const std::string& origin) {
 }
 
 TextureFile texture_file(const PackedTexture& packed, Metadata metadata) {
-    return {packed.format, packed.width, packed.height, packed.data, std::move(metadata)};
+    return {packed.format, packed.width, packed.height, {packed.data}, std::move(metadata)};
 }
 
 /// Fractions in [0, 1] as 8 bits.

@@ -2,6 +2,9 @@
 // Specification, version 1.3" (2019), chapter 5.
 #include "io/texture/ktx2.h"
 
+#include <fmt/format.h>
+#include <zstd.h>
+
 #include <array>
 #include <bit>
 #include <cassert>
@@ -101,7 +104,7 @@ FormatFacts facts_of(std::uint32_t vk_format) {
 }
 
 /// The basic data format descriptor.
-Bytes descriptor(const FormatFacts& facts, const FormatInfo& format) {
+Bytes descriptor(const FormatFacts& facts, const FormatInfo& format, bool compressed) {
     const std::size_t block = 24 + 16 * facts.samples.size();
     Bytes bytes;
     bytes.u32(4 + block);
@@ -109,7 +112,7 @@ Bytes descriptor(const FormatFacts& facts, const FormatInfo& format) {
     bytes.u32(2 | block << 16);                               // version 1.3
     bytes.u32(facts.model | 1 << 8 | 1 << 16);                // primaries of BT.709, linear, straight alpha
     bytes.u32((format.block - 1) | (format.block - 1) << 8);  // texels of a block, less one
-    bytes.u64(format.block_bytes);                            // bytes of plane 0; there are no others
+    bytes.u64(compressed ? 0 : format.block_bytes);           // bytes of plane 0, if known; there are no others
     for (const Sample& sample : facts.samples) {
         bytes.u32(sample.first_bit | (sample.bits - 1) << 16 | sample.channel << 24);
         bytes.u32(0);  // at the block's place
@@ -120,8 +123,10 @@ Bytes descriptor(const FormatFacts& facts, const FormatInfo& format) {
 }
 
 /// Keys and values, sorted by key.
-Bytes key_values(std::map<std::string, std::string> metadata) {
-    metadata["KTXorientation"] = "rd";
+Bytes key_values(const TextureFile& texture) {
+    std::map<std::string, std::string> metadata = texture.metadata;
+    // Cube maps have an orientation of their own, which needs no key.
+    if (texture.faces == 1) metadata["KTXorientation"] = texture.depth > 0 ? "rdi" : "rd";
     metadata["KTXwriter"] = "Lobelia " LOBELIA_VERSION;
     Bytes bytes;
     for (const auto& [key, value] : metadata) {
@@ -132,35 +137,87 @@ Bytes key_values(std::map<std::string, std::string> metadata) {
     return bytes;
 }
 
-/// Everything before the texels, which begin at a multiple of the block size and of 4.
-Bytes beginning(const TextureFile& texture) {
-    constexpr std::size_t k_header = 80, k_level = 24;
+/// A level as the file holds it.
+struct StoredLevel {
+    std::span<const std::byte> bytes;
+    std::vector<std::byte> compressed;  ///< the owner of `bytes`, if they are
+};
+
+/// Compresses a level in one frame of zstd, which is what the scheme asks for.
+Result<std::vector<std::byte>> compressed(std::span<const std::byte> bytes) {
+    constexpr int k_effort = 9;
+    std::vector<std::byte> out(ZSTD_compressBound(bytes.size()));
+    const std::size_t size = ZSTD_compress(out.data(), out.size(), bytes.data(), bytes.size(), k_effort);
+    if (ZSTD_isError(size) != 0) return Error{fmt::format("zstd: {}", ZSTD_getErrorName(size))};
+    out.resize(size);
+    return out;
+}
+
+Result<std::vector<StoredLevel>> stored_levels(const TextureFile& texture) {
+    std::vector<StoredLevel> stored;
+    for (const auto& level : texture.levels) {
+        StoredLevel& entry = stored.emplace_back(StoredLevel{level, {}});
+        if (!texture.compressed) continue;
+        auto bytes = compressed(level);
+        if (!bytes) return bytes.error();
+        entry.compressed = *std::move(bytes);
+        entry.bytes = entry.compressed;
+    }
+    return stored;
+}
+
+/// Levels begin at a multiple of the block size and of 4, unless they are compressed.
+std::size_t alignment_of(const TextureFile& texture) {
+    return texture.compressed ? 1 : std::lcm(info(texture.format).block_bytes, std::size_t{4});
+}
+
+/// Everything before the texels.
+Bytes beginning(const TextureFile& texture, const std::vector<StoredLevel>& levels) {
+    constexpr std::size_t k_header = 80, k_level = 24, k_zstd = 2;
     const FormatInfo& format = info(texture.format);
     const FormatFacts facts = facts_of(info(texture.format).vk_format);
-    const Bytes described = descriptor(facts, format), metadata = key_values(texture.metadata);
-    const std::size_t format_begin = k_header + k_level, metadata_begin = format_begin + described.size();
-    const std::size_t alignment = std::lcm(format.block_bytes, std::size_t{4});
-    const std::size_t texels_begin = (metadata_begin + metadata.size() + alignment - 1) / alignment * alignment;
+    const Bytes described = descriptor(facts, format, texture.compressed), metadata = key_values(texture);
+    const std::size_t format_begin = k_header + k_level * levels.size(),
+                      metadata_begin = format_begin + described.size();
+    const std::size_t alignment = alignment_of(texture);
+    const auto aligned = [&](std::size_t at) { return (at + alignment - 1) / alignment * alignment; };
+
+    // The smallest level stands first, so that a file that arrives in parts can be shown early.
+    std::vector<std::size_t> begins(levels.size());
+    std::size_t end = metadata_begin + metadata.size();
+    for (std::size_t i = levels.size(); i-- > 0; end = begins[i] + levels[i].bytes.size()) begins[i] = aligned(end);
+
     Bytes bytes;
     bytes.text("\xabKTX 20\xbb\r\n\x1a\n");
-    for (std::size_t value :
-         {std::size_t{format.vk_format}, std::size_t{facts.type_bytes}, texture.width, texture.height})
+    for (const std::size_t value :
+         {std::size_t{format.vk_format}, std::size_t{facts.type_bytes}, texture.width, texture.height, texture.depth,
+          texture.layers, texture.faces, levels.size(), texture.compressed ? k_zstd : 0, format_begin, described.size(),
+          metadata_begin, metadata.size()})
         bytes.u32(value);
-    for (std::uint64_t value : {0, 0, 1, 1, 0}) bytes.u32(value);  // depth, layers: none; faces, levels; no scheme
-    for (std::size_t value : {format_begin, described.size(), metadata_begin, metadata.size()}) bytes.u32(value);
-    for (std::uint64_t value : {0, 0}) bytes.u64(value);  // no data of a scheme
-    for (std::size_t value : {texels_begin, texture.data.size(), texture.data.size()}) bytes.u64(value);
+    for (std::uint64_t value : {0, 0}) bytes.u64(value);  // no data of the scheme that levels share
+    for (std::size_t i = 0; i < levels.size(); ++i)
+        for (const std::size_t value : {begins[i], levels[i].bytes.size(), texture.levels[i].size()}) bytes.u64(value);
     bytes.append(described);
     bytes.append(metadata);
-    bytes.pad_to(alignment);
     return bytes;
 }
 
 }  // namespace
 
 Status write_ktx2(StagedFile& file, const TextureFile& texture) {
-    if (auto status = file.write(beginning(texture).data()); !status) return status;
-    return file.write(texture.data);
+    const auto levels = stored_levels(texture);
+    if (!levels) return levels.error();
+    Bytes bytes = beginning(texture, *levels);
+    std::size_t end = bytes.size();
+    if (auto status = file.write(bytes.data()); !status) return status;
+    for (std::size_t i = levels->size(); i-- > 0;) {
+        const std::size_t gap = (alignment_of(texture) - end % alignment_of(texture)) % alignment_of(texture);
+        const std::vector<std::byte> zeros(gap);
+        if (auto status = file.write(zeros); !status) return status;
+        if (auto status = file.write((*levels)[i].bytes); !status) return status;
+        end += gap + (*levels)[i].bytes.size();
+    }
+    return Done{};
 }
 
 }  // namespace lobelia
