@@ -213,7 +213,7 @@ bool write_session_seeds(const std::filesystem::path& folder) {
     probes.probes->codec = "sh1/moments/convolution";
     probes.probes->samples = 64;
     probes.probes->box = std::array{Vec3{-1, 0.5f, -1}, Vec3{1, 1, 1}};
-    probes.storages = std::vector<std::string>{"float16", "ratio8"};
+    probes.textures.storages = std::vector<std::string>{"float16", "ratio8"};
     part.bake.shard = {Shard::By::samples, 1, 2};
     part.bake.samples = 32;
     bake_into("whole", small_job());

@@ -27,7 +27,7 @@ inline BakeJob small_job() {
     job.bake.atlas.width = job.bake.atlas.height = 6;
     job.bake.samples = 16;
     job.bake.threads = 1;
-    job.storages.emplace();
+    job.textures.storages.emplace();
     job.report.write = Switch::off;
     return job;
 }

@@ -42,10 +42,11 @@ struct BakeStatistics {
 
 /// A texture of one page.
 struct TextureEntry {
-    std::string storage;            ///< one of storages()
-    std::string file;               ///< in the bake's folder; its container is the extension
-    TextureLayout::Texture layout;  ///< contents of its channels
-    float scale = 1;                ///< multiply stored values by this first
+    std::string storage;                    ///< one of storages()
+    std::string file;                       ///< in the bake's folder; its container is the extension
+    TextureLayout::Texture layout;          ///< contents of its channels
+    float scale = 1;                        ///< multiply stored values by this first
+    std::optional<std::size_t> layer = {};  ///< of an array texture, which several entries share
 };
 
 /// The files of one page, in the bake's folder.
@@ -157,11 +158,10 @@ struct BakeSession {
 [[nodiscard]] Result<BakeJob> read_job(const std::filesystem::path& folder);
 
 struct WriteBakeOptions {
-    std::optional<std::vector<std::string>> storages = {};  ///< of the textures; absent: default_storages()
-    const Scene* scene = nullptr;                           ///< also write a copy of the scene and its environment
-    std::string container = "ktx2";                         ///< file format of the textures
-    std::optional<std::vector<std::string>> exports = {};   ///< plain lightmaps besides, by name; absent: none
-    const std::atomic<bool>* stop = nullptr;                ///< ends the writing early, with an error and no new file
+    TextureOptions textures = {};
+    const Scene* scene = nullptr;                          ///< also write a copy of the scene and its environment
+    std::optional<std::vector<std::string>> exports = {};  ///< plain lightmaps besides, by name; absent: none
+    const std::atomic<bool>* stop = nullptr;               ///< ends the writing early, with an error and no new file
 };
 
 /// Writes a folder: pages, textures, probes, bake.json; returns the manifest with the files' names and checksums. The

@@ -73,6 +73,18 @@ struct ProbeOptions {
     std::size_t most_probes = 1u << 20;      ///< more are an error
 };
 
+/// The textures of the pages' coefficients, and of their validity.
+struct TextureOptions {
+    std::optional<std::vector<std::string>> storages = {};  ///< by name; absent: default_storages()
+    std::string container = "ktx2";                         ///< file format, and the extension
+    /// on: textures of one pixel format and size are the layers of one array texture; off: each is a file.
+    Switch arrays = Switch::on;
+    /// Mip levels, the page itself included: each texel of a smaller one is the mean of the valid texels of one chart
+    /// among the four above it. The page's sides must be multiples of 2^(levels - 1).
+    std::uint32_t levels = 1;
+    Switch zstd = Switch::off;  ///< compresses the files, where the container can
+};
+
 /// The HTML report, made after the bake; kept with the job, so that a resumed bake makes the same one.
 struct ReportOptions {
     Switch write = Switch::on;
@@ -86,11 +98,10 @@ struct BakeJob {
     SceneSource scene;
     BakeOptions bake;
     FinishOptions finish;
-    std::optional<ProbeOptions> probes;                ///< absent: no probes
-    Precision precision = Precision::half;             ///< of the pages; full where half cannot hold their values
-    std::optional<std::vector<std::string>> storages;  ///< of the textures; absent: default_storages()
-    std::string container = "ktx2";                    ///< file format of the textures, and their extension
-    std::optional<std::vector<std::string>> exports;   ///< plain lightmaps besides, by name; absent: none
+    std::optional<ProbeOptions> probes;     ///< absent: no probes
+    Precision precision = Precision::half;  ///< of the pages; full where half cannot hold their values
+    TextureOptions textures;
+    std::optional<std::vector<std::string>> exports;  ///< plain lightmaps besides, by name; absent: none
     ReportOptions report;
 };
 

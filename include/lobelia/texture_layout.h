@@ -86,9 +86,11 @@ struct PackedTexture {
 
 /// Packs one texture after the other, for large pages: memory holds only the current one, and the leading coefficient's
 /// if ratios to it follow. Ends with the first error that `take` returns, or with one when `stop` becomes true.
+/// `scales` are those of the textures, for mip levels, which have those of the largest one; empty: as values require.
 using TakeTexture = std::function<Status(const TextureLayout::Texture& texture, const PackedTexture& packed)>;
 [[nodiscard]] Status pack_each(const TextureLayout& layout, const CoefficientPlanes& coefficients,
-                               const TakeTexture& take, const std::atomic<bool>* stop = nullptr);
+                               const TakeTexture& take, const std::atomic<bool>* stop = nullptr,
+                               std::span<const float> scales = {});
 
 /// Unpacks textures of this layout; sub-sampled ones are sampled at the nearest texel.
 void unpack(const TextureLayout& layout, std::span<const PackedTexture> textures, const MutableCoefficientPlanes& out);

@@ -63,8 +63,11 @@ BakeJob to_job(const py::kwargs& options) {
     set_switch("push_out", bake.push_out);
     job.precision = choose<Precision>("precision", options["precision"].cast<std::string>(),
                                       {{"half", Precision::half}, {"float", Precision::full}});
-    set("storages", job.storages);
-    set("container", job.container);
+    set("storages", job.textures.storages);
+    set("container", job.textures.container);
+    set_switch("texture_arrays", job.textures.arrays);
+    set("mip_levels", job.textures.levels);
+    set_switch("zstd", job.textures.zstd);
     if (!options["probe_spacing"].is_none()) set("probe_spacing", job.probes.emplace().spacing);
     job.report.write = Switch::off;
     return job;
@@ -139,7 +142,7 @@ void write_to(const BakeHandle& bake, const std::filesystem::path& folder,
               const std::string& container) {
     py::gil_scoped_release released;
     const Scene* written = scene == nullptr ? nullptr : &scene->loaded->scene;
-    (void)value_or_throw(write_bake(folder, *bake, {storages, written, container}));
+    (void)value_or_throw(write_bake(folder, *bake, {{storages, container}, written}));
 }
 
 void add_progress(py::module_& module) {

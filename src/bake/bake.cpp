@@ -42,7 +42,8 @@ void warn(Bake& bake, const BakeSession& session, const std::string& text) {
 
 Status check_textures(const BakeJob& job) {
     if (const auto exports = find_lightmap_exports(job.exports); !exports) return exports.error();
-    const auto textures = PageTextures::make(job.bake.codec, job.storages, job.container);
+    const auto textures =
+        PageTextures::make(job.bake.codec, job.textures, {job.bake.atlas.width, job.bake.atlas.height});
     return textures ? Status(Done{}) : textures.error();
 }
 
@@ -60,7 +61,7 @@ Result<BakeWork> place(const Scene& scene, const BakeJob& job, const BakeSession
     work.bake.manifest.precision = job.precision;
     for (const std::string& warning : session.earlier_warnings) warn(work.bake, session, warning);
     if (!work.setup->tracer->has_light()) warn(work.bake, session, "the scene has no light; everything will be black");
-    work.bake.preflight = preflight(*work.setup, session.stop);
+    work.bake.preflight = preflight(*work.setup, job.textures.levels, session.stop);
     for (const std::string& warning : warnings(*work.bake.preflight, scene)) warn(work.bake, session, warning);
     return work;
 }
@@ -175,8 +176,7 @@ Status write(BakeWork& work, const BakeJob& job, const BakeSession& session, con
     if (session.folder.empty()) return Done{};
     FilesTogether files(session.lock, session.stop);
     if (Status status = prepare(files); !status) return status;
-    auto manifest =
-        write_bake(std::move(files), work.bake, {job.storages, work.setup->scene, job.container, job.exports});
+    auto manifest = write_bake(std::move(files), work.bake, {job.textures, work.setup->scene, job.exports});
     if (!manifest) return manifest.error();
     for (std::size_t i = work.bake.manifest.warnings.size(); i < manifest->warnings.size() && session.warn; ++i)
         session.warn(manifest->warnings[i]);
@@ -321,7 +321,8 @@ Result<Preflight> preflight(const Scene& scene, const BakeJob& job, const std::a
         if (auto status = check_textures(job); !status) return status.error();
         const auto setup = BakeSetup::make(scene, job.bake, stop);
         if (!setup) return setup.error();
-        return preflight(**setup, stop, measure_rate((*setup)->atlas, (*setup)->map, *(*setup)->tracer));
+        return preflight(**setup, job.textures.levels, stop,
+                         measure_rate((*setup)->atlas, (*setup)->map, *(*setup)->tracer));
     });
 }
 

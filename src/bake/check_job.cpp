@@ -62,6 +62,7 @@ Status check(const BakeJob& job) {
     check("samples of the report's pictures", job.report.samples, ranges::picture_samples);
     check("width of the report's pictures", job.report.width, ranges::side);
     check("height of the report's pictures", job.report.height, ranges::side);
+    check("mip levels", job.textures.levels, ranges::mip_levels);
     check("uv set", job.scene.uv_set, ranges::uv_set);
     check("scene memory", job.scene.scene_memory, ranges::memory);
     if (!check.status()) return check.status();

@@ -28,6 +28,7 @@ inline constexpr OptionRange probe_tolerance{0, 1e6};
 inline constexpr OptionRange probe_samples{64, 1'000'000};
 inline constexpr OptionRange picture_samples{1, 65536};  ///< per pixel
 inline constexpr OptionRange uv_set{0, 7};
+inline constexpr OptionRange mip_levels{1, 15};
 }  // namespace ranges
 
 /// An error that names the first option outside its range. bake() itself checks what depends on the scene or the codec.

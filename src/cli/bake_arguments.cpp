@@ -107,7 +107,9 @@ Result<BakeJob> job_of(const BakeArguments& a) {
     job.finish = {off_if(a.no_denoise), off_if(a.no_seams), off_if(a.no_dilate)};
     job.probes = *probes;
     job.precision = a.precision == "half" ? Precision::half : Precision::full;
-    job.storages = *storages;
+    job.textures.storages = *storages;
+    job.textures.arrays = off_if(a.no_arrays);
+    job.textures.zstd = a.zstd ? Switch::on : Switch::off;
     if (!a.exports.empty()) job.exports = a.exports;
     job.report.write = off_if(a.no_report);
     job.report.width = picture->width;

@@ -153,7 +153,14 @@ void add_output_options(CLI::App& command, BakeArguments& a) {
                 "Write textures in this storage, see lobelia list --storages; repeatable; none: no textures "
                 "(default: float16, and ratio8 where it is usable)")
         ->allow_extra_args(false);
-    group.choice("--container", a.job.container, container_names(), "File format of the textures");
+    group.choice("--container", a.job.textures.container, container_names(), "File format of the textures");
+    group.flag("--no-texture-arrays", a.no_arrays,
+               "Write a file for each texture; otherwise those of one format and size are one array texture");
+    group
+        .with_default("--mip-levels", a.job.textures.levels,
+                      "Mip levels of the textures, the page included; their sides must be multiples of 2^(levels - 1)")
+        ->check(whole_in<unsigned>(ranges::mip_levels));
+    group.flag("--zstd", a.zstd, "Compress the textures (KTX 2.0 supercompression scheme 2)");
     group
         .option("--export", a.exports,
                 "Also write plain lightmaps for other programs: " + export_list() + "; repeatable")

@@ -25,6 +25,7 @@ struct BakeArguments {
     std::uint32_t add_samples = 0;
     bool resume = false, plain = false, preflight = false;
     bool no_denoise = false, no_seams = false, no_dilate = false, no_push_out = false, no_report = false;
+    bool no_arrays = false, zstd = false;
     bool no_next_event = false, no_roulette = false;
 };
 

@@ -15,7 +15,7 @@ using Names = std::vector<std::string>;
 Result<Manifest> written(const fs::path& folder, const Bake& bake, const Names& exports, const Names& storages = {}) {
     WriteBakeOptions options;
     options.exports = exports;
-    options.storages = storages;
+    options.textures.storages = storages;
     return write_bake(folder, bake, options);
 }
 

@@ -105,18 +105,23 @@ std::uint64_t number_at(const std::string& bytes, std::size_t place, std::size_t
     return value;
 }
 
-/// Parses a KTX 2.0 file. Khronos 2021, section 3: identifier, format, size of type, width, height, depth, layers,
-/// faces, levels, scheme; the level's offset and its length at byte 80.
-PackedTexture texture_in(const fs::path& file, PixelFormat format) {
+/// Parses one layer of the largest level of a KTX 2.0 file. Khronos 2021, section 3: identifier, format, size of type,
+/// width, height, depth, layers, faces, levels, scheme; the largest level's offset and its length at byte 80.
+PackedTexture texture_in(const fs::path& file, PixelFormat format, std::optional<std::size_t> layer = {}) {
     const std::string bytes = test::contents(file);
     EXPECT_EQ(bytes.substr(0, 12), std::string("\xabKTX 20\xbb\r\n\x1a\n"));
     EXPECT_EQ(number_at(bytes, 12, 4), info(format).vk_format);
-    for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ(number_at(bytes, 28 + 4 * i, 4), (i == 2 || i == 3) ? 1u : 0u) << i;
+    const std::uint64_t layers = number_at(bytes, 32, 4);
+    EXPECT_EQ(layers > 0, layer.has_value());
+    EXPECT_EQ(number_at(bytes, 28, 4), 0u);
+    EXPECT_EQ(number_at(bytes, 36, 4), 1u);
+    EXPECT_EQ(number_at(bytes, 44, 4), 0u);
     PackedTexture texture{"", format, number_at(bytes, 20, 4), number_at(bytes, 24, 4), 1, {}};
     const std::uint64_t begin = number_at(bytes, 80, 8), length = number_at(bytes, 88, 8);
     EXPECT_EQ(begin + length, bytes.size());
-    EXPECT_EQ(length, byte_size(format, texture.width, texture.height));
-    const auto data = std::as_bytes(std::span(bytes)).subspan(begin, length);
+    const std::size_t size = byte_size(format, texture.width, texture.height);
+    EXPECT_EQ(length, size * std::max<std::uint64_t>(layers, 1));
+    const auto data = std::as_bytes(std::span(bytes)).subspan(begin + layer.value_or(0) * size, size);
     texture.data.assign(data.begin(), data.end());
     return texture;
 }
@@ -145,9 +150,11 @@ LightmapPage page_in(const fs::path& folder, const PageEntry& baked, const Stora
     std::vector<PackedTexture> packed;
     for (const TextureEntry& texture : baked.textures) {
         if (texture.storage != storage.name) continue;
-        EXPECT_EQ(texture.file, "page-0." + texture.storage + "." + texture.layout.name + ".ktx2");
+        const std::string part(texture.layer ? info(texture.layout.format).name : texture.layout.name);
+        const bool half = texture.layer && texture.layout.subsampling > 1;
+        EXPECT_EQ(texture.file, "page-0." + texture.storage + "." + part + (half ? "-half" : "") + ".ktx2");
         layout.textures.push_back(texture.layout);
-        packed.push_back(texture_in(folder / texture.file, texture.layout.format));
+        packed.push_back(texture_in(folder / texture.file, texture.layout.format, texture.layer));
         packed.back().scale = texture.scale;
     }
     EXPECT_FALSE(packed.empty());
@@ -164,15 +171,15 @@ TEST(BakeTextures, FilesHoldThePageWithinEachStoragesBound) {
         bake.manifest.objects.pop_back();  // its texels are on that page
         const CoefficientTraits traits = traits_of(codec);
         WriteBakeOptions options;
-        options.storages.emplace();
+        options.textures.storages.emplace();
         for (const Storage& storage : storages())
-            if (suits(storage, traits)) options.storages->emplace_back(storage.name);
+            if (suits(storage, traits)) options.textures.storages->emplace_back(storage.name);
         const test::TestFolder folder("bake-textures");
         ASSERT_TRUE(write_bake(folder.path(), bake, options));
         const auto manifest = read_manifest(folder.path());
         ASSERT_TRUE(manifest) << manifest.error().message;
         const LightmapPage& page = bake.pages[0];
-        for (const std::string& name : *options.storages) {
+        for (const std::string& name : *options.textures.storages) {
             SCOPED_TRACE(std::string(codec) + " " + name);
             const Storage& storage = *find_storage(name).value();
             const LightmapPage back = page_in(folder.path(), manifest->pages[0], storage, page, traits.count);
@@ -195,11 +202,12 @@ TEST(BakeTextures, HalvesRatiosAndValidityWhereNothingIsAskedFor) {
     const auto manifest = read_manifest(folder.path());
     ASSERT_TRUE(manifest) << manifest.error().message;
     std::vector<std::string> files;
-    for (const TextureEntry& texture : manifest->pages[1].textures) files.push_back(texture.file);
-    EXPECT_EQ(files,
-              (std::vector<std::string>{"page-1.float16.v0.ktx2", "page-1.float16.v1.ktx2", "page-1.float16.v2.ktx2",
-                                        "page-1.ratio8.c0.ktx2", "page-1.ratio8.ratio0.ktx2",
-                                        "page-1.ratio8.ratio1.ktx2", "page-1.ratio8.ratio2.ktx2"}));
+    for (const TextureEntry& texture : manifest->pages[1].textures)
+        files.push_back(texture.file + (texture.layer ? " " + std::to_string(*texture.layer) : ""));
+    EXPECT_EQ(files, (std::vector<std::string>{"page-1.float16.rgba16f.ktx2 0", "page-1.float16.rgba16f.ktx2 1",
+                                               "page-1.float16.rgba16f.ktx2 2", "page-1.ratio8.c0.ktx2",
+                                               "page-1.ratio8.rgba8.ktx2 0", "page-1.ratio8.rgba8.ktx2 1",
+                                               "page-1.ratio8.ratio2.ktx2"}));
     ASSERT_EQ(manifest->pages[1].validity, "page-1.validity.ktx2");
     const PackedTexture validity = texture_in(folder.path() / "page-1.validity.ktx2", PixelFormat::r8);
     for (std::size_t i = 0; i < bake.pages[1].size(); ++i)
@@ -211,27 +219,62 @@ TEST(BakeTextures, EveryContainerIsTheExtensionOfItsFiles) {
     for (const TextureContainer& container : texture_containers()) {
         const test::TestFolder folder("bake-containers");
         const std::string name(container.name);
-        ASSERT_TRUE(write_bake(folder.path(), bake, {.storages = {{"float16"}}, .container = name}));
+        ASSERT_TRUE(write_bake(folder.path(), bake, {.textures = {.storages = {{"float16"}}, .container = name}}));
         const auto manifest = read_manifest(folder.path());
         ASSERT_TRUE(manifest) << manifest.error().message;
         EXPECT_EQ(manifest->pages[0].validity, "page-0.validity." + name);
-        EXPECT_EQ(manifest->pages[0].textures[0].file, "page-0.float16.v0." + name);
+        EXPECT_EQ(manifest->pages[0].textures[0].file, "page-0.float16.rgba16f." + name);
         EXPECT_TRUE(fs::exists(folder.path() / manifest->pages[0].textures[0].file));
     }
     const test::TestFolder folder("bake-containers");
-    const auto refused = write_bake(folder.path() / "none", bake, {.container = "zip"});
+    const auto refused = write_bake(folder.path() / "none", bake, {.textures = {.container = "zip"}});
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().message, find_texture_container("zip").error().message);
     EXPECT_EQ(folder.entries(), 0u);
 }
 
+TEST(BakeTextures, AFileForEachWithoutArrays) {
+    const test::TestFolder folder("bake-loose-textures");
+    const Bake bake = some_bake("sh1/moments/convolution");
+    ASSERT_TRUE(write_bake(folder.path(), bake, {.textures = {.storages = {{"float16"}}, .arrays = Switch::off}}));
+    const auto manifest = read_manifest(folder.path());
+    ASSERT_TRUE(manifest) << manifest.error().message;
+    std::size_t i = 0;
+    for (const TextureEntry& texture : manifest->pages[0].textures) {
+        EXPECT_EQ(texture.file, "page-0.float16.v" + std::to_string(i++) + ".ktx2");
+        EXPECT_FALSE(texture.layer);
+        EXPECT_EQ(texture_in(folder.path() / texture.file, texture.layout.format).width, bake.manifest.width);
+    }
+    EXPECT_EQ(i, 3u);
+}
+
+TEST(BakeTextures, MipLevelsThatAPageCannotHaveAreRefused) {
+    const test::TestFolder folder("bake-levels");
+    const auto message = [&](const std::string& storage, std::uint32_t levels, std::size_t width) {
+        const auto status =
+            write_bake(folder.path() / "none", some_bake("sh1/moments/convolution", Frame::world, width, 40),
+                       {.textures = {.storages = {{storage}}, .levels = levels}});
+        return status ? "" : status.error().message;
+    };
+    EXPECT_EQ(message("float16", 4, 24), "");
+    EXPECT_EQ(message("float16", 5, 24), "5 mip levels: the sides of a page of 24 x 40 texels are not multiples of 16");
+    EXPECT_EQ(message("float16", 2, 25), "2 mip levels: the sides of a page of 25 x 40 texels are not multiples of 2");
+    EXPECT_EQ(message("float16", 1, 25), "");
+    EXPECT_EQ(message("ycocg", 4, 24), "4 mip levels: the sides of a page of 24 x 40 texels are not multiples of 16");
+    const auto zstd = write_bake(folder.path() / "none", some_bake("sh1/moments/convolution"),
+                                 {.textures = {.container = "dds", .zstd = Switch::on}});
+    ASSERT_FALSE(zstd);
+    EXPECT_EQ(zstd.error().message, "zstd: the texture container \"dds\" has no compression");
+}
+
 TEST(BakeTextures, OnlyThoseAskedFor) {
     const test::TestFolder folder("bake-textures-chosen");
     const Bake bake = some_bake("sh1/moments/convolution");
-    ASSERT_TRUE(write_bake(folder.path(), bake, {.storages = std::vector<std::string>{}}));
+    ASSERT_TRUE(write_bake(folder.path(), bake, {.textures = {.storages = std::vector<std::string>{}}}));
     EXPECT_EQ(folder.entries(), 5u);  // the manifest, two pages, the probes' two files
     const auto message = [&](const std::string& codec, const char* storage) {
-        const auto status = write_bake(folder.path() / "none", some_bake(codec), {.storages = {{storage}}});
+        const auto status =
+            write_bake(folder.path() / "none", some_bake(codec), {.textures = {.storages = {{storage}}}});
         return status ? "" : status.error().message;
     };
     EXPECT_NE(message("sh1/moments/convolution", "ratoi8").find("did you mean ratio8"), std::string::npos);
@@ -276,7 +319,7 @@ TEST(BakeFolder, MorePagesThanFilesMayBeOpen) {
     ::getrlimit(RLIMIT_NOFILE, &old);
     const rlimit few{80, old.rlim_max};
     ::setrlimit(RLIMIT_NOFILE, &few);
-    const auto status = write_bake(folder.path(), bake, {.storages = {{"bc6h-signed"}}});
+    const auto status = write_bake(folder.path(), bake, {.textures = {.storages = {{"bc6h-signed"}}, .arrays = Switch::off}});
     ::setrlimit(RLIMIT_NOFILE, &old);
     ASSERT_TRUE(status) << status.error().message;
     // Of each page its file, four textures and validity; bake.json, two files of probes, four of shader code.
@@ -284,7 +327,7 @@ TEST(BakeFolder, MorePagesThanFilesMayBeOpen) {
     EXPECT_TRUE(read_bake(folder.path()));
     // If the last file does not fit, nothing is left behind, including temporary files.
     bake.pages.back().chart[0] = (1u << 24) + 1;
-    EXPECT_FALSE(write_bake(folder.path() / "again", bake, {.storages = std::vector<std::string>{}}));
+    EXPECT_FALSE(write_bake(folder.path() / "again", bake, {.textures = {.storages = std::vector<std::string>{}}}));
     EXPECT_FALSE(fs::exists(folder.path() / "again"));
 }
 

@@ -124,8 +124,9 @@ TEST_F(BakeOutput, HostileManifestsAreRefusedWithTheirPlace) {
         std::string from, to, says;
     };
     const std::vector<Case> cases = {
-        {"\"lobelia_bake\": 2", "\"lobelia_bake\": 1", "lobelia_bake: version 1, but this program reads version 2"},
-        {"\"lobelia_bake\": 2", "\"lobelia\": 1", "is it from `lobelia bake`?"},
+        {"\"lobelia_bake\": 3", "\"lobelia_bake\": 1",
+         "lobelia_bake: version 1, but this program reads versions 2 to 3"},
+        {"\"lobelia_bake\": 3", "\"lobelia\": 1", "is it from `lobelia bake`?"},
         {"0123456789abcdef", "0123456789abcdeg", "scene.hash: not 16 hexadecimal digits"},
         {"sh1/moments/convolution", "sh1/moments/none", "codec.name: unknown evaluator"},
         {"sh1/moments/convolution", "sg12h/moments/exact", "codec.coefficients: sg12h has 12"},
@@ -145,7 +146,9 @@ TEST_F(BakeOutput, HostileManifestsAreRefusedWithTheirPlace) {
         {"\"coefficient\": 1", "\"coefficient\": 2", "layout.pages[0].textures[0].channels[3].coefficient: not 1"},
         {"\"offset\": 0.5", "\"offset\": 0.25", "layout.pages[0].textures[4].channels[0].offset: not 0.5"},
         {"\"scale\": 1.0", "\"scale\": 0.0", "layout.pages[0].textures[0].scale: 0 is not in"},
-        {"page-0.float16.v1.ktx2", "page-0.float16.v0.ktx2", "named twice"},
+        {"\"layer\": 1", "\"layer\": 0", "layer 0 of the file page-0.float16.rgba16f.ktx2 is named twice"},
+        {"\"layer\": 1", "\"layer\": -1", "layout.pages[0].textures[1].layer: not a whole number"},
+        {"page-0.ratio8.c0.ktx2", "page-1.exr", "the file page-1.exr is named twice"},
         {"page-0.validity.ktx2", "a/b", "layout.pages[0].validity: not the name of a file"},
         {"page-1.exr", "page-9.exr", "page-9.exr: cannot be read"},
         {"probes.json", "bake.jsonn", "bake.jsonn: cannot be read: No such file"},

@@ -48,7 +48,7 @@ BakeJob small_job() {
     job.bake.paths.bounces = 4;
     job.bake.threads = 2;
     job.finish = {Switch::off, Switch::off, Switch::off};
-    job.storages.emplace();
+    job.textures.storages.emplace();
     job.precision = Precision::full;
     return job;
 }
@@ -150,7 +150,7 @@ TEST(Bake, KeepsItsJobAndItsFolder) {
     EXPECT_EQ(read->scene.environment, "sky");
     EXPECT_EQ(read->probes->box, job.probes->box);
     EXPECT_EQ(read->finish.seams, Switch::off);
-    EXPECT_EQ(read->storages, job.storages);
+    EXPECT_EQ(read->textures.storages, job.textures.storages);
     EXPECT_EQ(read->bake.samples, 64u);
     const auto bake = read_bake(folder / "a");
     ASSERT_TRUE(bake) << bake.error().message;

@@ -42,7 +42,7 @@ Bake finished(const std::string& codec, const FinishOptions& steps) {
     job.bake.samples = 32;
     job.bake.paths.bounces = 3;
     job.finish = steps;
-    job.storages.emplace();
+    job.textures.storages.emplace();
     BakeSession session;
     auto result = bake(scene, job, session);
     EXPECT_TRUE(result) << codec << ": " << result.error().message;

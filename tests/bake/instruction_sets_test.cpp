@@ -34,7 +34,7 @@ BakeJob one_pass_job() {
     job.bake.samples = 16;
     job.bake.paths.bounces = 1;
     job.finish = {Switch::off, Switch::off, Switch::off};
-    job.storages.emplace();
+    job.textures.storages.emplace();
     return job;
 }
 

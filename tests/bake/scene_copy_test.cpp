@@ -34,8 +34,8 @@ struct Packed {
 TEST(SceneCopy, LightmapUvsAreThePages) {
     const test::TestFolder folder("scene-copy");
     const Packed packed(cornell_scene());
-    ASSERT_TRUE(
-        write_bake(folder.path(), packed.bake, {.storages = std::vector<std::string>{}, .scene = &packed.scene}));
+    ASSERT_TRUE(write_bake(folder.path(), packed.bake,
+                           {.textures = {.storages = std::vector<std::string>{}}, .scene = &packed.scene}));
     const auto manifest = read_manifest(folder.path());
     ASSERT_TRUE(manifest && manifest->scene);
     EXPECT_TRUE(manifest->warnings.empty());

@@ -28,7 +28,7 @@ BakeJob tiny_job() {
     job.bake.paths.bounces = 1;
     job.bake.threads = 1;
     job.finish = {Switch::off, Switch::off, Switch::off};
-    job.storages.emplace();
+    job.textures.storages.emplace();
     return job;
 }
 

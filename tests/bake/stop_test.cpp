@@ -51,7 +51,7 @@ TEST(Stop, EveryStageLooksAtTheFlag) {
     EXPECT_THROW((void)displaced_texels(setup.atlas, setup.map, *setup.tracer, stop), Stopped);
     EXPECT_THROW(PathTracer(scene, setup.world, {}, stop), Stopped);
     EXPECT_THROW((void)BakeSetup::make(scene, job.bake, stop), Stopped);
-    EXPECT_THROW((void)preflight(setup, stop), Stopped);
+    EXPECT_THROW((void)preflight(setup, 1, stop), Stopped);
     EXPECT_THROW((void)make_guides(setup.atlas, setup.map, stop), Stopped);
     EXPECT_THROW((void)find_seams(setup.atlas, 1e-4f, stop), Stopped);
     SeamOptions seams;

@@ -79,20 +79,21 @@ const formats = {
   bc6h_unsigned: [143, bc6h(0x80, 0)], bc6h_signed: [144, bc6h(0xc0, minusOne)],
 };
 
-function checkContainer(name, format, texture, bytes, size) {
+function checkContainer(name, format, texture, bytes, size, { layers = 0, levels = 1, zstd = false } = {}) {
   const [vkFormat, facts] = formats[format], block = facts.block ?? 1;
   check(texture.vkFormat === vkFormat, `${name}: format ${texture.vkFormat}`);
   check(texture.typeSize === facts.typeSize, `${name}: type size ${texture.typeSize}`);
   check(texture.pixelWidth === size[0] && texture.pixelHeight === size[1] && texture.pixelDepth === 0, `${name}: size`);
-  check(texture.layerCount === 0 && texture.faceCount === 1, `${name}: ${texture.layerCount} layers`);
-  check(texture.levels.length === 1 && texture.supercompressionScheme === 0, `${name}: levels`);
+  check(texture.layerCount === layers && texture.faceCount === 1, `${name}: ${texture.layerCount} layers`);
+  check(texture.levels.length === levels, `${name}: ${texture.levels.length} levels`);
+  check(texture.supercompressionScheme === (zstd ? 2 : 0), `${name}: supercompression`);
   const stated = texture.dataFormatDescriptor[0];
   check(texture.dataFormatDescriptor.length === 1 && stated.vendorId === 0 && stated.descriptorType === 0 &&
     stated.versionNumber === 2, `${name}: descriptor`);
   check(stated.colorModel === (facts.model ?? 1), `${name}: colour model ${stated.colorModel}`);
   check(stated.colorPrimaries === 1 && stated.transferFunction === 1 && stated.flags === 0, `${name}: colour space`);
   check(stated.texelBlockDimension.join() === [block - 1, block - 1, 0, 0].join(), `${name}: block`);
-  check(stated.bytesPlane.join() === [facts.bytes, 0, 0, 0, 0, 0, 0, 0].join(), `${name}: planes`);
+  check(stated.bytesPlane.join() === [zstd ? 0 : facts.bytes, 0, 0, 0, 0, 0, 0, 0].join(), `${name}: planes`);
   check(stated.samples.length === facts.samples.length, `${name}: samples`);
   stated.samples.forEach((sample, i) => {
     const [bit, bits, channel, lower, upper] = facts.samples[i];
@@ -105,11 +106,18 @@ function checkContainer(name, format, texture, bytes, size) {
   check(texture.keyValue.KTXorientation === 'rd', `${name}: KTXorientation`);
   const keys = Object.keys(texture.keyValue);
   check(keys.join() === [...keys].sort().join(), `${name}: order of the keys`);
-  const view = new DataView(bytes.buffer, bytes.byteOffset), begin = Number(view.getBigUint64(80, true));
-  check(begin % 4 === 0 && begin % facts.bytes === 0, `${name}: alignment of the texels`);
-  check(begin + texture.levels[0].levelData.length === bytes.length, `${name}: length of the file`);
-  const blocks = Math.ceil(size[0] / block) * Math.ceil(size[1] / block);
-  check(texture.levels[0].levelData.length === blocks * facts.bytes, `${name}: bytes of texels`);
+  // Levels, the smallest first, up to the end of the file.
+  const view = new DataView(bytes.buffer, bytes.byteOffset);
+  const begins = texture.levels.map((_, i) => Number(view.getBigUint64(80 + 24 * i, true)));
+  check(zstd || begins.every((begin) => begin % 4 === 0 && begin % facts.bytes === 0), `${name}: alignment`);
+  check(begins.every((begin, i) => i === 0 || begin < begins[i - 1]), `${name}: order of the levels`);
+  check(begins[0] + texture.levels[0].levelData.length === bytes.length, `${name}: length of the file`);
+  texture.levels.forEach((level, i) => {
+    const blocks = size.map((side) => Math.ceil(Math.max(side >> i, 1) / block));
+    const length = Math.max(layers, 1) * blocks[0] * blocks[1] * facts.bytes;
+    check(level.uncompressedByteLength === length, `${name}: bytes of level ${i}`);
+    check(zstd || level.levelData.length === length, `${name}: bytes of level ${i}`);
+  });
 }
 
 function checkNumbers(name, facts, data, expected) {
@@ -162,32 +170,41 @@ function checkShape(folder, shape, zstd) {
   check(Buffer.compare(found, expected) === 0, `${name}: bytes`);
 }
 
-// Check that a bake's textures match its manifest.
-function checkBake(folder) {
+// Check that a bake's textures match its manifest: files of one texture, and of several as layers.
+function checkBake(folder, { levels, zstd }) {
   const { layout } = JSON.parse(readFileSync(join(folder, 'bake.json')));
-  let files = 0;
+  const expected = { layers: 0, levels, zstd };
+  const files = new Set();
+  const read = (name) => {
+    const bytes = readFileSync(join(folder, name));
+    files.add(name);
+    return [ktx.read(new Uint8Array(bytes)), bytes];
+  };
   for (const page of layout.pages) {
-    for (const stated of page.textures) {
-      const bytes = readFileSync(join(folder, stated.file)), texture = ktx.read(new Uint8Array(bytes));
-      const size = [layout.width, layout.height].map((side) => Math.ceil(side / stated.subsampling));
-      checkContainer(stated.file, stated.format, texture, bytes, size);
-      const value = (key) => textOf(texture.keyValue[`lobelia.${key}`]);
-      check(texture.vkFormat === stated.vk_format, `${stated.file}: vk_format`);
-      check(value('storage') === stated.storage && value('format') === stated.format, `${stated.file}: storage`);
-      check(Number(value('scale')) === stated.scale, `${stated.file}: scale`);
-      check(Number(value('subsampling')) === stated.subsampling, `${stated.file}: subsampling`);
-      const lines = value('channels').split('\n');
-      check(lines.length === stated.channels.length, `${stated.file}: channels`);
-      stated.channels.forEach((channel, i) => check(lines[i].includes(`c${channel.coefficient}.${channel.component}`) &&
-        (channel.form === 'ratio') === lines[i].includes('/'), `${stated.file}: channel ${lines[i]}`));
-      files++;
+    for (const name of new Set(page.textures.map((stated) => stated.file))) {
+      const sharing = page.textures.filter((stated) => stated.file === name), [texture, bytes] = read(name);
+      const first = sharing[0], isArray = 'layer' in first;
+      check(isArray === (sharing.length > 1), `${name}: ${sharing.length} textures`);
+      const size = [layout.width, layout.height].map((side) => Math.ceil(side / first.subsampling));
+      checkContainer(name, first.format, texture, bytes, size, { ...expected, layers: isArray ? sharing.length : 0 });
+      const values = (key) => textOf(texture.keyValue[`lobelia.${key}`]).split('\n\n');
+      sharing.forEach((stated, i) => {
+        check(!isArray || stated.layer === i, `${name}: layer ${stated.layer}`);
+        check(texture.vkFormat === stated.vk_format, `${name}: vk_format`);
+        check(values('storage')[0] === stated.storage && values('format')[0] === stated.format, `${name}: storage`);
+        check(Number(values('scale')[i]) === stated.scale, `${name}: scale`);
+        check(Number(values('subsampling')[0]) === stated.subsampling, `${name}: subsampling`);
+        const lines = values('channels')[i].split('\n');
+        check(lines.length === stated.channels.length, `${name}: channels`);
+        stated.channels.forEach((channel, k) => check(lines[k].includes(`c${channel.coefficient}.${channel.component}`) &&
+          (channel.form === 'ratio') === lines[k].includes('/'), `${name}: channel ${lines[k]}`));
+      });
     }
-    const bytes = readFileSync(join(folder, page.validity)), texture = ktx.read(new Uint8Array(bytes));
-    checkContainer(page.validity, 'r8', texture, bytes, [layout.width, layout.height]);
-    files++;
+    const [texture, bytes] = read(page.validity);
+    checkContainer(page.validity, 'r8', texture, bytes, [layout.width, layout.height], expected);
   }
   const there = readdirSync(folder).filter((name) => name.endsWith('.ktx2')).length;
-  check(files === there && files > 10, `${folder}: ${files} textures of ${there}`);
+  check(files.size === there && files.size > 5, `${folder}: ${files.size} textures of ${there}`);
 }
 
 const folder = mkdtempSync(join(tmpdir(), 'lobelia-ktx2-'));
@@ -200,7 +217,8 @@ try {
     checkFormat(folder, name);
   }
   for (const shape of Object.keys(shapes)) for (const zstd of [false, true]) checkShape(join(folder, 'shapes'), shape, zstd);
-  for (const bake of ['sh1', 'sg12']) checkBake(join(folder, bake));
+  for (const bake of ['sh1', 'sg12']) checkBake(join(folder, bake), { levels: 1, zstd: false });
+  checkBake(join(folder, 'sh1-levels'), { levels: 3, zstd: true });
 } finally {
   rmSync(folder, { recursive: true });
 }

@@ -80,13 +80,14 @@ void make_shape(const std::filesystem::path& folder, const std::string& name, Te
 }
 
 /// Every compatible storage; values that bytes and half floats hold exactly where possible.
-void make_bake(const std::filesystem::path& folder, const std::string& codec) {
-    const Bake bake = test::some_bake(codec);
+void make_bake(const std::filesystem::path& folder, const std::string& codec, TextureOptions textures = {}) {
+    const Bake bake = textures.levels == 1 ? test::some_bake(codec) : test::some_bake(codec, Frame::world, 24, 40);
     const auto traits = coefficient_traits(*make_codec(codec)->encoder());
     WriteBakeOptions options;
-    options.storages.emplace();
+    options.textures = std::move(textures);
+    options.textures.storages.emplace();
     for (const Storage& storage : storages())
-        if (suits(storage, traits)) options.storages->emplace_back(storage.name);
+        if (suits(storage, traits)) options.textures.storages->emplace_back(storage.name);
     const auto written = write_bake(folder, bake, options);
     require(written ? Status(Done{}) : written.error());
 }
@@ -112,5 +113,7 @@ int main(int argc, char** argv) {
     }
     lobelia::make_bake(std::filesystem::path(argv[1]) / "sh1", "sh1/moments/convolution");
     lobelia::make_bake(std::filesystem::path(argv[1]) / "sg12", "sg12/nnls/exact");
+    lobelia::make_bake(std::filesystem::path(argv[1]) / "sh1-levels", "sh1/moments/convolution",
+                       {.levels = 3, .zstd = lobelia::Switch::on});
     return 0;
 }

@@ -9,7 +9,8 @@
 namespace lobelia::test {
 
 /// Random pages, some texels of them empty, and probes on a grid of 2 x 1 x 3.
-inline Bake some_bake(const std::string& codec, Frame frame = Frame::world) {
+inline Bake some_bake(const std::string& codec, Frame frame = Frame::world, std::size_t width = 21,
+                      std::size_t height = 34) {
     std::mt19937 generator(5);
     std::uniform_real_distribution<float> uniform(-1, 1);
     Bake bake;
@@ -18,8 +19,8 @@ inline Bake some_bake(const std::string& codec, Frame frame = Frame::world) {
     m.scene_name = "a \"scene\"";
     m.scene_hash = 0x0123456789abcdefu;
     m.coefficients = make_codec(codec)->basis().size();
-    m.width = 21;
-    m.height = 34;
+    m.width = width;
+    m.height = height;
     m.options.codec = codec;
     m.options.frame = frame;
     m.options.atlas.width = m.width;

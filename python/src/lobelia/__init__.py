@@ -62,6 +62,9 @@ def bake(
     precision="half",
     storages=None,
     container="ktx2",
+    texture_arrays=True,
+    mip_levels=1,
+    zstd=False,
     probe_spacing=None,
     resume=False,
     progress=None,
@@ -79,7 +82,8 @@ def bake(
     target_error: a texel is done when its relative standard error is below this.
     frame: "world" or "tangent", of spherical coefficients. directions: "uniform" or "mixture".
     precision: "half" or "float", of the pages in the folder. storages: of its textures; None: the default ones.
-    container: file format of the textures, "ktx2".
+    container: file format of the textures, "ktx2" or "dds". texture_arrays: textures of one format and size share a
+    file. mip_levels: of the textures, the page included. zstd: compress them (KTX 2.0 only).
     probe_spacing: also bake probes, on a grid of this spacing [m].
     resume: continue the checkpoint in the folder.
     progress: is called with a Progress, at most 20 times a second; an exception that it raises stops the bake.

@@ -248,8 +248,9 @@ Preflight preflight(const Atlas& atlas, const TexelMap& map, const PreflightOpti
     return result;
 }
 
-Preflight preflight(const BakeSetup& setup, StopFlag stop, std::optional<RayRate> rate) {
+Preflight preflight(const BakeSetup& setup, std::uint32_t mip_levels, StopFlag stop, std::optional<RayRate> rate) {
     PreflightOptions options;
+    options.padding = padding_for_levels(mip_levels);
     options.stop = stop;
     options.state_bytes = setup.layout.bytes();
     options.channels = setup.encoding.page_channels().count();

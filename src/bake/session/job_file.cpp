@@ -93,8 +93,11 @@ void fields(auto& archive, BakeJob& job) {
     archive.group("finish", job.finish);
     archive.group("probes", job.probes);
     archive.choice("precision", job.precision, k_precision_names);
-    archive.texts("storages", job.storages);
-    archive.text("container", job.container);
+    archive.texts("storages", job.textures.storages);
+    archive.text("container", job.textures.container);
+    archive.choice("texture_arrays", job.textures.arrays, k_switch_names);
+    archive.whole("mip_levels", job.textures.levels, 0, k_any_u32);
+    archive.choice("zstd", job.textures.zstd, k_switch_names);
     archive.texts("exports", job.exports);
     archive.group("report", job.report);
 }

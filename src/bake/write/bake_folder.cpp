@@ -155,7 +155,8 @@ Result<Bake> read_files(const fs::path& path, const ManifestText& text) {
 
 Result<Manifest> write_bake(FilesTogether files, const Bake& bake, const WriteBakeOptions& options) {
     assert(bake.pages.size() == bake.normals.size());
-    const auto textures = PageTextures::make(bake.manifest.options.codec, options.storages, options.container);
+    const auto textures =
+        PageTextures::make(bake.manifest.options.codec, options.textures, {bake.manifest.width, bake.manifest.height});
     if (!textures) return textures.error();
     const auto exports = find_lightmap_exports(options.exports);
     if (!exports) return exports.error();

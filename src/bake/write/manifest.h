@@ -10,7 +10,8 @@
 
 namespace lobelia {
 
-inline constexpr int k_bake_version = 2;
+inline constexpr int k_bake_version = 3;
+inline constexpr int k_oldest_bake_version = 2;  ///< the first one that is still read
 inline constexpr const char* k_manifest_name = "bake.json";
 inline constexpr const char* k_report_name = "bake.html";
 

@@ -97,7 +97,9 @@ TextureEntry read_texture(const JsonPlace& place, KnownTextures& known) {
     const TextureLayout::Texture& layout = known.at(place);
     place.expect(nlohmann::json::parse(texture_json(layout)));
     const auto scale = static_cast<float>(place.at("scale").number_in(0x1p-149, 0x1p127));
-    return {place.at("storage").text(), place.at("file").file_name(), layout, scale};
+    TextureEntry entry{place.at("storage").text(), place.at("file").file_name(), layout, scale};
+    if (const auto layer = place.find("layer")) entry.layer = layer->whole(0, k_most_textures - 1);
+    return entry;
 }
 
 PageEntry read_page_entry(const JsonPlace& place, KnownTextures& known) {
@@ -152,7 +154,13 @@ void refuse_repeated_files(const JsonPlace& top, const Manifest& m) {
     };
     for (const auto& page : m.pages) {
         add(page.file);
-        for (const auto& texture : page.textures) add(texture.file);
+        // Layers of an array texture share its file.
+        std::map<std::string, std::set<std::size_t>> layers;
+        for (const auto& texture : page.textures) {
+            if (!texture.layer || layers.count(texture.file) == 0) add(texture.file);
+            if (texture.layer && !layers[texture.file].insert(*texture.layer).second)
+                top.refuse(fmt::format("layer {} of the file {} is named twice", *texture.layer, texture.file));
+        }
         if (page.validity) add(*page.validity);
     }
     if (m.scene) add(*m.scene);
@@ -169,9 +177,10 @@ FileEntry read_file_entry(const JsonPlace& place) {
 Manifest read_all(const JsonPlace& top) {
     if (!top.find("lobelia_bake")) top.refuse("no \"lobelia_bake\" version; is it from `lobelia bake`?");
     const auto version = top.at("lobelia_bake").whole(0, k_any_u32);
-    if (version != static_cast<std::uint64_t>(k_bake_version))
+    if (version < k_oldest_bake_version || version > k_bake_version)
         top.at("lobelia_bake")
-            .refuse(fmt::format("version {}, but this program reads version {}", version, k_bake_version));
+            .refuse(fmt::format("version {}, but this program reads versions {} to {}", version, k_oldest_bake_version,
+                                k_bake_version));
     Manifest m;
     m.program = top.at("program").text();
     read_scene(top.at("scene"), m);

@@ -18,6 +18,7 @@ ordered_json or_null(const std::optional<std::string>& text) { return text ? ord
 
 ordered_json to_json(const TextureEntry& texture) {
     ordered_json json = {{"storage", texture.storage}, {"file", texture.file}, {"scale", shortest(texture.scale)}};
+    if (texture.layer) json["layer"] = *texture.layer;
     json.update(ordered_json::parse(texture_json(texture.layout)));
     return json;
 }

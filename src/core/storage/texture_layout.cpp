@@ -174,6 +174,10 @@ void check_planes(const TextureLayout& layout, const CoefficientPlanes& planes,
     check_range("texels", planes.size(), 1, SIZE_MAX, place);
 }
 
+float scale_of(const Texture& texture, const CoefficientPlanes& planes) {
+    return storing_scale(texture.format, largest_of(texture, planes));
+}
+
 bool has_ratios(const Texture& texture) {
     return std::any_of(texture.channels.begin(), texture.channels.end(),
                        [](const StoredChannel& channel) { return channel.form == Form::ratio; });
@@ -218,14 +222,14 @@ class PackedLead {
     std::vector<const PackedTexture*> packed_;
 };
 
-PackedTexture pack_texture(const Texture& texture, const CoefficientPlanes& planes, const PackedLead& lead,
-                           StopFlag stop = {}) {
+PackedTexture pack_texture(const Texture& texture, const CoefficientPlanes& planes, const PackedLead& lead, float scale,
+                           StopFlag stop) {
     const FormatInfo& format = info(texture.format);
     PackedTexture packed{texture.name,
                          texture.format,
                          divided(planes.width, texture.subsampling),
                          divided(planes.height, texture.subsampling),
-                         storing_scale(texture.format, largest_of(texture, planes)),
+                         scale,
                          {}};
     packed.data.resize(byte_size(texture.format, packed.width, packed.height));
     ChannelSource source(planes, texture, packed.scale);
@@ -285,21 +289,24 @@ std::vector<PackedTexture> pack(const TextureLayout& layout, const CoefficientPl
     packed.reserve(layout.textures.size());
     PackedLead lead;
     for (const Texture& texture : layout.textures) {
-        packed.push_back(pack_texture(texture, coefficients, lead));
+        packed.push_back(pack_texture(texture, coefficients, lead, scale_of(texture, coefficients), {}));
         if (holds_lead(texture)) lead.add(texture, packed.back());
     }
     return packed;
 }
 
 Status pack_each(const TextureLayout& layout, const CoefficientPlanes& coefficients, const TakeTexture& take,
-                 const std::atomic<bool>* stop) {
+                 const std::atomic<bool>* stop, std::span<const float> scales) {
     check_planes(layout, coefficients);
+    if (!scales.empty()) check_equal("scales", scales.size(), layout.textures.size());
     const bool keeps_lead = std::any_of(layout.textures.begin(), layout.textures.end(), has_ratios);
     return unless_stopped([&]() -> Status {
         std::deque<PackedTexture> kept;
         PackedLead lead;
-        for (const Texture& texture : layout.textures) {
-            PackedTexture packed = pack_texture(texture, coefficients, lead, stop);
+        for (std::size_t i = 0; i < layout.textures.size(); ++i) {
+            const Texture& texture = layout.textures[i];
+            const float scale = scales.empty() ? scale_of(texture, coefficients) : scales[i];
+            PackedTexture packed = pack_texture(texture, coefficients, lead, scale, stop);
             if (Status status = take(texture, packed); !status) return status;
             if (keeps_lead && holds_lead(texture)) lead.add(texture, kept.emplace_back(std::move(packed)));
         }
