@@ -30,6 +30,8 @@ struct GaussianOptions {
 /// again.
 [[nodiscard]] std::shared_ptr<const LinearBasis> spherical_gaussians(std::vector<Lobe> lobes,
                                                                      Domain domain = Domain::sphere);
+/// Returns the lobes of a basis of spherical Gaussians on fixed axes, one for each coefficient; none for other bases.
+[[nodiscard]] std::vector<Lobe> lobes_of(const Basis& basis);
 /// Parses lobes: lines "x y z sharpness" (the axis is normalised) or "ambient"; # starts a comment. Errors name
 /// `source` and the line.
 [[nodiscard]] Result<std::vector<Lobe>> parse_lobes(std::string_view text, std::string_view source);

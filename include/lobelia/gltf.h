@@ -62,20 +62,31 @@ using ResourceReader =
 [[nodiscard]] Result<LoadedScene> read_gltf(std::span<const std::byte> bytes, std::string_view name,
                                             const ResourceReader& resources, const GltfReadOptions& options = {});
 
+/// A lightmap for viewers that know nothing of Lobelia: the extension MOZ_lightmap of materials, texCoord 1.
+struct GltfLightmap {
+    std::string png;      ///< irradiance over pi and over `intensity`, in sRGB
+    float intensity = 1;  ///< [W/m^2]
+};
+
 /// Additional content of the file. Vectors have an entry per object, or are empty.
 struct GltfWriteOptions {
     /// Lightmap UVs that replace those of the object's mesh, one per vertex; empty: the mesh's own.
     std::vector<std::vector<Vec2>> lightmap_uv;
-    std::string scene_extras;                ///< a JSON object as text; empty: none
-    std::vector<std::string> object_extras;  ///< likewise, for the objects' nodes
+    std::string scene_extras;                    ///< a JSON object as text; empty: none
+    std::vector<std::string> object_extras;      ///< likewise, for the objects' nodes
+    std::string extensions;                      ///< of the file: a JSON object, contents by their extensions' names
+    std::vector<std::string> object_extensions;  ///< likewise, of the objects' nodes
+    std::vector<GltfLightmap> lightmaps = {};    ///< any number
+    std::vector<std::optional<std::size_t>> object_lightmap = {};  ///< the one of `lightmaps` that an object has
 };
 
 /// Writes a .glb file into memory. read_gltf reads it as the same scene, up to the rounding of unit vectors and of
 /// emission, with triangles sorted by material within a mesh, and without its environment, which glTF cannot store.
 /// Lightmap UVs are TEXCOORD_1, texture coordinates TEXCOORD_0 and, for a second set that is not the lightmap's,
-/// TEXCOORD_2; gaps between sets are filled; textures are PNG; a light's angular radius is in its extras. The same
-/// scene gives the same bytes. Errors: more than 4 GiB, extras that are not a JSON object, a texture transform that
-/// shears. Preconditions: check_scene; sizes as stated above.
+/// TEXCOORD_2; gaps between sets are filled; textures are PNG; a light's angular radius is in its extras.
+/// Materials of objects with lightmaps are copied for each lightmap. The same scene gives the same bytes. Errors: more
+/// than 4 GiB, extras that are not a JSON object, a texture transform that shears. Preconditions: check_scene; sizes as
+/// stated above.
 [[nodiscard]] Result<std::string> encode_glb(const Scene& scene, const GltfWriteOptions& options = {});
 
 /// Writes the same bytes to a .glb file, which is replaced only once all of it is written.

@@ -1,6 +1,9 @@
 // Tests the copy of the scene in a bake: its lightmap UVs are those of the pages, and nothing else differs.
 #include <gtest/gtest.h>
 
+#include <cstring>
+#include <nlohmann/json.hpp>
+
 #include "bake/write/manifest.h"
 #include "bake/write/scene_copy.h"
 #include "folders.h"
@@ -62,6 +65,87 @@ TEST(SceneCopy, LightmapUvsAreThePages) {
     const std::string bytes = test::contents(folder.path() / *manifest->scene);
     EXPECT_NE(bytes.find(R"({"lobelia_lightmap":{)"), std::string::npos);
     EXPECT_NE(bytes.find(R"("file":"page-0.exr")"), std::string::npos);
+}
+
+/// The JSON of a .glb file.
+nlohmann::json json_of(const std::filesystem::path& file) {
+    const std::string bytes = test::contents(file);
+    std::uint32_t length = 0;
+    std::memcpy(&length, bytes.data() + 12, sizeof length);
+    return nlohmann::json::parse(bytes.substr(20, length));
+}
+
+TEST(SceneCopy, TheExtensionSaysWhatTheManifestSays) {
+    const test::TestFolder folder("scene-extension");
+    const Packed packed(cornell_scene());
+    ASSERT_TRUE(write_bake(folder.path(), packed.bake, {.scene = &packed.scene}));
+    auto manifest = nlohmann::json::parse(test::contents(folder.path() / k_manifest_name));
+    manifest["conventions"].erase("tangent_frame");  // null, which glTF does not allow
+    const auto scene = json_of(folder.path() / "scene.glb");
+    EXPECT_EQ(scene["extensionsUsed"].back(), "LOBELIA_lightmap");
+    const auto& extension = scene["extensions"]["LOBELIA_lightmap"];
+    EXPECT_EQ(extension["version"], 1);
+    EXPECT_EQ(extension["manifest"], "bake.json");
+    EXPECT_EQ(extension["texCoord"], 1);
+    EXPECT_EQ(extension["codec"], manifest["codec"]);
+    EXPECT_EQ(extension["conventions"], manifest["conventions"]);
+    EXPECT_EQ(extension["pages"], manifest["layout"]["pages"]);
+    EXPECT_EQ(extension["width"], 96);
+    std::size_t lit = 0;
+    for (const auto& node : scene["nodes"])
+        if (node.contains("extensions") && node["extensions"].contains("LOBELIA_lightmap")) {
+            EXPECT_EQ(node["extensions"]["LOBELIA_lightmap"]["page"], 0);
+            ++lit;
+        }
+    EXPECT_EQ(lit, packed.scene.objects.size());
+    const auto copy = read_gltf(folder.path() / "scene.glb");
+    ASSERT_TRUE(copy);
+    EXPECT_TRUE(copy->warnings.empty());
+}
+
+TEST(SceneCopy, PlainLightmapsForOtherViewers) {
+    const test::TestFolder folder("scene-plain");
+    Packed packed(cornell_scene());
+    LightmapPage& page = packed.bake.pages[0];
+    const PageChannels channels = packed.bake.channels();
+    for (std::size_t i = 0; i < page.size(); ++i) {
+        page.planes[channels.irradiance(0)][i] = i == 5 ? 8 * static_cast<float>(k_pi) : static_cast<float>(k_pi);
+        page.planes[channels.irradiance(1)][i] = 2 * static_cast<float>(k_pi);
+    }
+    ASSERT_TRUE(write_bake(folder.path(), packed.bake, {.scene = &packed.scene, .exports = {{"moz-lightmap"}}}));
+    const auto scene = json_of(folder.path() / "scene.glb");
+    std::size_t primitives = 0;
+    for (const auto& node : scene["nodes"]) {
+        if (!node.contains("mesh")) continue;
+        for (const auto& primitive : scene["meshes"][node["mesh"].get<std::size_t>()]["primitives"]) {
+            const auto& lightmap =
+                scene["materials"][primitive["material"].get<std::size_t>()]["extensions"]["MOZ_lightmap"];
+            EXPECT_EQ(lightmap["texCoord"], 1);
+            EXPECT_NEAR(lightmap["intensity"].get<double>(), 8, 1e-5);
+            EXPECT_EQ(scene["textures"][lightmap["index"].get<std::size_t>()]["source"], 0);
+            EXPECT_TRUE(primitive["attributes"].contains("TEXCOORD_1"));
+            ++primitives;
+        }
+    }
+    EXPECT_GT(primitives, packed.scene.objects.size() - 1);
+
+    // Read it again: the scene is the same, and the picture holds irradiance over pi.
+    const auto copy = read_gltf(folder.path() / "scene.glb");
+    ASSERT_TRUE(copy) << copy.error().message;
+    EXPECT_TRUE(copy->warnings.empty());
+    EXPECT_EQ(copy->scene.objects.size(), packed.scene.objects.size());
+    const auto& view = scene["bufferViews"][scene["images"][0]["bufferView"].get<std::size_t>()];
+    const std::string bytes = test::contents(folder.path() / "scene.glb");
+    std::uint32_t json_length = 0;
+    std::memcpy(&json_length, bytes.data() + 12, sizeof json_length);
+    const std::size_t begin = 28 + json_length + view["byteOffset"].get<std::size_t>();
+    const std::string png = bytes.substr(begin, view["byteLength"].get<std::size_t>());
+    test::overwrite(folder.path() / "lightmap.png", png);
+    const auto picture = read_environment(folder.path() / "lightmap.png", {.ldr = true});
+    ASSERT_TRUE(picture) << picture.error().message;
+    EXPECT_NEAR(picture->image.pixels[0].r * 8, 1, 0.02f);
+    EXPECT_NEAR(picture->image.pixels[0].g * 8, 2, 0.03f);
+    EXPECT_NEAR(picture->image.pixels[5].r * 8, 8, 0.01f);
 }
 
 TEST(SceneCopy, TheEnvironmentGoesWithIt) {

@@ -87,10 +87,10 @@ Status add_probes(FilesTogether& files, const Bake& bake, Manifest& manifest) {
     return status;
 }
 
-Status add_scene(FilesTogether& files, const Scene& scene, Manifest& manifest) {
+Status add_scene(FilesTogether& files, const Scene& scene, std::vector<GltfLightmap> lightmaps, Manifest& manifest) {
     // Without a copy the bake is still useful: where glTF cannot hold the scene, warn and go on.
     manifest.scene.reset();
-    const auto copy = encode_scene_copy(scene, manifest);
+    const auto copy = encode_scene_copy(scene, manifest, std::move(lightmaps));
     if (!copy) {
         manifest.warnings.push_back("the scene was not copied: " + copy.error().message);
     } else {
@@ -167,7 +167,11 @@ Result<Manifest> write_bake(FilesTogether files, const Bake& bake, const WriteBa
     if (status) status = add_exports(files, bake, *exports, manifest);
     if (status) status = add_shaders(files, textures->storages(), manifest);
     if (status) status = add_probes(files, bake, manifest);
-    if (status && options.scene != nullptr) status = add_scene(files, *options.scene, manifest);
+    if (status && options.scene != nullptr) {
+        auto lightmaps = lightmaps_in_scene(bake, *exports);
+        if (!lightmaps) return lightmaps.error();
+        status = add_scene(files, *options.scene, *std::move(lightmaps), manifest);
+    }
     manifest.files.assign(files.entries().begin() + static_cast<std::ptrdiff_t>(others), files.entries().end());
     if (status) status = files.add_text(k_manifest_name, to_json_text(manifest));
     if (!status) return status.error();

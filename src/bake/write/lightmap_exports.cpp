@@ -16,6 +16,9 @@ constexpr std::array k_exports = {
     LightmapExport{"rgb", "irradiance E [W/m^2]", 1},
     LightmapExport{"rgb-over-pi", "irradiance over pi: what a white Lambertian surface reflects [W/(m^2 sr)]",
                    1 / k_pi},
+    LightmapExport{"moz-lightmap",
+                   "the same inside scene.glb, as 8-bit textures of the materials' extension MOZ_lightmap", 1 / k_pi,
+                   LightmapExport::Place::scene},
 };
 
 /// Red, green and blue of irradiance times a factor, at least 0.
@@ -28,6 +31,12 @@ std::array<std::vector<float>, 3> irradiance_of(const LightmapPage& page, const 
                        [&](float e) { return static_cast<float>(std::max(0.0, factor * static_cast<double>(e))); });
     }
     return rgb;
+}
+
+float largest_of(const std::array<std::vector<float>, 3>& rgb) {
+    float largest = 0;
+    for (const auto& plane : rgb) largest = std::max(largest, largest_magnitude(plane.data(), plane.size()));
+    return largest;
 }
 
 Status write_texture_of(StagedFile& file, const LightmapPage& page, const std::array<std::vector<float>, 3>& rgb,
@@ -67,10 +76,30 @@ Result<std::vector<const LightmapExport*>> find_lightmap_exports(const std::opti
     return found;
 }
 
+Result<std::vector<GltfLightmap>> lightmaps_in_scene(const Bake& bake,
+                                                     const std::vector<const LightmapExport*>& exports) {
+    const auto entry = std::find_if(exports.begin(), exports.end(),
+                                    [](const LightmapExport* e) { return e->place == LightmapExport::Place::scene; });
+    std::vector<GltfLightmap> lightmaps;
+    for (std::size_t i = 0; entry != exports.end() && i < bake.pages.size(); ++i) {
+        const LightmapPage& page = bake.pages[i];
+        const auto rgb = irradiance_of(page, bake.channels(), (*entry)->factor);
+        const float largest = largest_of(rgb);
+        GltfLightmap& lightmap = lightmaps.emplace_back();
+        lightmap.intensity = largest > 0 ? largest : 1;
+        Image image(page.width, page.height);
+        for (std::size_t t = 0; t < page.size(); ++t) image.pixels[t] = {rgb[0][t], rgb[1][t], rgb[2][t]};
+        auto png = encode_png(to_srgb(image, 1 / lightmap.intensity));
+        if (!png) return Error{fmt::format("lightmap of page {}: {}", i, png.error().message)};
+        lightmap.png = *std::move(png);
+    }
+    return lightmaps;
+}
+
 Status add_exports(FilesTogether& files, const Bake& bake, const std::vector<const LightmapExport*>& exports,
                    Manifest& manifest) {
     for (const LightmapExport* entry : exports)
-        for (std::size_t i = 0; i < bake.pages.size(); ++i) {
+        for (std::size_t i = 0; entry->place == LightmapExport::Place::files && i < bake.pages.size(); ++i) {
             const LightmapPage& page = bake.pages[i];
             const auto rgb = irradiance_of(page, bake.channels(), entry->factor);
             const std::string stem = fmt::format("page-{}.{}", i, entry->name);
@@ -83,8 +112,7 @@ Status add_exports(FilesTogether& files, const Bake& bake, const std::vector<con
             if (!status) return status;
 
             // Write the texture.
-            float largest = 0;
-            for (const auto& plane : rgb) largest = std::max(largest, largest_magnitude(plane.data(), plane.size()));
+            const float largest = largest_of(rgb);
             const float scale = storing_scale(PixelFormat::bc6h_unsigned, largest);
             if (scale != 1)
                 manifest.warnings.push_back(

@@ -9,6 +9,7 @@
 
 #include "bake/write/files_together.h"
 #include "lobelia/bake.h"
+#include "lobelia/gltf.h"
 
 namespace lobelia {
 
@@ -16,6 +17,7 @@ struct LightmapExport {
     std::string_view name;  ///< also a part of its files' names
     std::string_view description;
     double factor;  ///< of irradiance [W/m^2]
+    enum class Place { files, scene } place = Place::files;
 };
 
 /// THE list (src/bake/write/lightmap_exports.cpp).
@@ -24,9 +26,13 @@ struct LightmapExport {
 [[nodiscard]] Result<std::vector<const LightmapExport*>> find_lightmap_exports(
     const std::optional<std::vector<std::string>>& names);
 
-/// Writes page-N.NAME.exr, with the channels R, G and B alone, and page-N.NAME.ktx2, BC6H blocks, for each page:
-/// irradiance at the shading normals, dilated as the page is. Values that half floats cannot hold are divided by a
-/// power of two in the texture, with a warning.
+/// Makes the lightmaps of the pages that an export into the scene puts there; none if there is no such export.
+[[nodiscard]] Result<std::vector<GltfLightmap>> lightmaps_in_scene(const Bake& bake,
+                                                                   const std::vector<const LightmapExport*>& exports);
+
+/// Writes the exports that are files: page-N.NAME.exr, with the channels R, G and B alone, and page-N.NAME.ktx2, BC6H
+/// blocks, for each page: irradiance at the shading normals, dilated as the page is. Values that half floats cannot
+/// hold are divided by a power of two in the texture, with a warning.
 [[nodiscard]] Status add_exports(FilesTogether& files, const Bake& bake,
                                  const std::vector<const LightmapExport*>& exports, Manifest& manifest);
 

@@ -21,6 +21,9 @@ inline constexpr const char* k_report_name = "bake.html";
 /// The text of bake.json.
 [[nodiscard]] std::string to_json_text(const Manifest& manifest);
 
+/// What a renderer needs of bake.json, as the content of the glTF extension LOBELIA_lightmap (docs/bake-format.md).
+[[nodiscard]] std::string lightmap_extension_text(const Manifest& manifest);
+
 /// Checks everything: version, codec, counts, ranges, finite numbers, file names without folders, codec names without
 /// files. Errors name the file, the place in it and the remedy.
 [[nodiscard]] Result<Manifest> manifest_from_json(std::string_view text, const std::string& name);

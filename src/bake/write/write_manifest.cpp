@@ -5,6 +5,7 @@
 #include "bake/write/manifest.h"
 #include "bake/write/page_files.h"
 #include "core/storage/layout_text.h"
+#include "lobelia/bases.h"
 #include "scene/scene_hash.h"
 
 namespace lobelia {
@@ -13,6 +14,7 @@ namespace {
 using nlohmann::ordered_json;
 
 constexpr const char* k_program_version = LOBELIA_VERSION;
+constexpr int k_lightmap_extension_version = 1;
 
 ordered_json or_null(const std::optional<std::string>& text) { return text ? ordered_json(*text) : ordered_json(); }
 
@@ -59,6 +61,43 @@ ordered_json conventions(const Manifest& m) {
         {"described_in", "docs/conventions.md and docs/bake-format.md of Lobelia"}};
 }
 
+ordered_json codec_json(const Manifest& m) {
+    const CodecName name = m.options.codec.empty() ? CodecName{} : parse_codec_name(m.options.codec).value();
+    ordered_json json = {
+        {"name", m.options.codec},        {"basis", name.basis},
+        {"encoder", name.encoder},        {"evaluator", name.evaluator},
+        {"coefficients", m.coefficients}, {"frame", k_frame_names[static_cast<std::size_t>(m.options.frame)]}};
+    if (m.options.codec.empty()) return json;
+
+    // The axis and the sharpness of each lobe, for readers without shader code.
+    ordered_json lobes = ordered_json::array();
+    for (const Lobe& lobe : lobes_of(*make_basis(name.basis).value()))
+        lobes.push_back({{"axis", {shortest(lobe.axis.x), shortest(lobe.axis.y), shortest(lobe.axis.z)}},
+                         {"sharpness", shortest(lobe.sharpness)}});
+    if (!lobes.empty()) json["lobes"] = std::move(lobes);
+    return json;
+}
+
+ordered_json pages_json(const Manifest& m) {
+    ordered_json pages = ordered_json::array();
+    for (const auto& page : m.pages) pages.push_back(to_json(page));
+    return pages;
+}
+
+/// Leaves out what is null, which glTF does not allow.
+ordered_json without_nulls(const ordered_json& value) {
+    if (!value.is_structured()) return value;
+    ordered_json result = value.is_array() ? ordered_json::array() : ordered_json::object();
+    for (const auto& [key, member] : value.items()) {
+        if (member.is_null()) continue;
+        if (value.is_array())
+            result.push_back(without_nulls(member));
+        else
+            result[key] = without_nulls(member);
+    }
+    return result;
+}
+
 template <class T>
 ordered_json all_fields(T value) {
     JsonFieldWriter writer;
@@ -83,9 +122,7 @@ Manifest make_manifest(const Scene& scene, const Atlas& atlas, const BakeOptions
 }
 
 std::string to_json_text(const Manifest& m) {
-    const CodecName name = m.options.codec.empty() ? CodecName{} : parse_codec_name(m.options.codec).value();
-    ordered_json pages = ordered_json::array(), objects = ordered_json::array(), files = ordered_json::array();
-    for (const auto& page : m.pages) pages.push_back(to_json(page));
+    ordered_json objects = ordered_json::array(), files = ordered_json::array();
     for (const auto& file : m.files) files.push_back(to_json(file));
     for (const auto& object : m.objects) objects.push_back(to_json(object, m));
     const ordered_json document = {{"lobelia_bake", k_bake_version},
@@ -96,20 +133,14 @@ std::string to_json_text(const Manifest& m) {
                                      {"file", or_null(m.scene)},
                                      {"environment", or_null(m.environment)}}},
                                    {"warnings", m.warnings},
-                                   {"codec",
-                                    {{"name", m.options.codec},
-                                     {"basis", name.basis},
-                                     {"encoder", name.encoder},
-                                     {"evaluator", name.evaluator},
-                                     {"coefficients", m.coefficients},
-                                     {"frame", k_frame_names[static_cast<std::size_t>(m.options.frame)]}}},
+                                   {"codec", codec_json(m)},
                                    {"conventions", conventions(m)},
                                    {"layout",
                                     {{"width", m.width},
                                      {"height", m.height},
                                      {"precision", k_precision_names[static_cast<std::size_t>(m.precision)]},
                                      {"channels", page_channel_names(PageChannels{m.coefficients})},
-                                     {"pages", std::move(pages)}}},
+                                     {"pages", pages_json(m)}}},
                                    {"objects", std::move(objects)},
                                    {"probes", or_null(m.probes)},
                                    {"files", std::move(files)},
@@ -117,6 +148,18 @@ std::string to_json_text(const Manifest& m) {
                                    {"finish", m.finish},
                                    {"statistics", all_fields(m.statistics)}};
     return json_text(document, 1) + "\n";
+}
+
+std::string lightmap_extension_text(const Manifest& m) {
+    return json_text(without_nulls(ordered_json{{"version", k_lightmap_extension_version},
+                                                {"manifest", k_manifest_name},
+                                                {"texCoord", 1},
+                                                {"codec", codec_json(m)},
+                                                {"conventions", conventions(m)},
+                                                {"width", m.width},
+                                                {"height", m.height},
+                                                {"pages", pages_json(m)},
+                                                {"probes", or_null(m.probes)}}));
 }
 
 }  // namespace lobelia

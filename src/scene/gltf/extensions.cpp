@@ -33,6 +33,7 @@ constexpr std::array k_extensions{
     Extension{"MSFT_lod", Support::harmless}, Extension{"MSFT_packing_occlusionRoughnessMetallic", Support::harmless},
     Extension{"MSFT_packing_normalRoughnessMetallic", Support::harmless},
     Extension{"EXT_mesh_features", Support::harmless}, Extension{"EXT_structural_metadata", Support::harmless},
+    Extension{"LOBELIA_lightmap", Support::harmless}, Extension{"MOZ_lightmap", Support::harmless},
     Extension{"CESIUM_primitive_outline", Support::harmless}, Extension{"FB_geometry_metadata", Support::harmless},
     // Extensions with a fallback; files without it are refused where it is needed.
     Extension{"EXT_texture_avif", Support::fallback, k_fallback, k_png},

@@ -53,6 +53,7 @@ class Writer {
     Result<std::string> write() {
         if (const Status s = write_textures(builder_, scene_); !s) return s.error();
         if (const Status s = write_materials(builder_, scene_, sets_); !s) return s.error();
+        write_lightmaps();
         for (std::size_t i = 0; i < scene_.objects.size(); ++i)
             if (const Status s = write_object(i); !s) return s.error();
         write_lights();
@@ -62,6 +63,7 @@ class Writer {
         if (nodes_.empty()) scene.erase("nodes");
         if (!scene_.name.empty()) scene["name"] = scene_.name;
         if (const Status s = add_extras(scene, options_.scene_extras, "the scene"); !s) return s.error();
+        if (const Status s = add_extensions(builder_.root(), options_.extensions, "the file"); !s) return s.error();
         builder_.add("scenes", std::move(scene));
         return builder_.finish();
     }
@@ -73,13 +75,58 @@ class Writer {
         nodes_.push_back(builder_.add("nodes", std::move(node)));
     }
 
+    /// Returns the JSON object in a text.
+    static Result<json> object_in(const std::string& text, std::string_view what, std::string_view whose) {
+        auto object = parse_json(text, fmt::format("the {} of {}", what, whose));
+        if (!object) return object.error();
+        if (!object->is_object()) return Error{fmt::format("the {} of {} are not a JSON object", what, whose)};
+        return json(*std::move(object));
+    }
+
     static Status add_extras(json& target, const std::string& text, std::string_view whose) {
         if (text.empty()) return Done{};
-        auto extras = parse_json(text, fmt::format("the extras of {}", whose));
+        auto extras = object_in(text, "extras", whose);
         if (!extras) return extras.error();
-        if (!extras->is_object()) return Error{fmt::format("the extras of {} are not a JSON object", whose)};
         target["extras"] = *std::move(extras);
         return Done{};
+    }
+
+    Status add_extensions(json& target, const std::string& text, std::string_view whose) {
+        if (text.empty()) return Done{};
+        auto extensions = object_in(text, "extensions", whose);
+        if (!extensions) return extensions.error();
+        for (auto& [name, content] : extensions->items()) {
+            builder_.use_extension(name.c_str());
+            target["extensions"][name] = std::move(content);
+        }
+        return Done{};
+    }
+
+    void write_lightmaps() {
+        for (const GltfLightmap& lightmap : options_.lightmaps) {
+            constexpr int k_filter = 9729, k_wrap = 33071;  // linear; clamped
+            const std::size_t image =
+                builder_.add("images", {{"bufferView", builder_.add_view(lightmap.png, 0)}, {"mimeType", "image/png"}});
+            const std::size_t sampler = builder_.add(
+                "samplers", {{"wrapS", k_wrap}, {"wrapT", k_wrap}, {"magFilter", k_filter}, {"minFilter", k_filter}});
+            lightmap_textures_.push_back(builder_.add("textures", {{"source", image}, {"sampler", sampler}}));
+        }
+        if (!options_.lightmaps.empty()) builder_.use_extension("MOZ_lightmap");
+    }
+
+    /// Returns the index of a material for an object: its own, or a copy that has the object's lightmap.
+    std::size_t material_of(std::size_t object, std::size_t material) {
+        if (options_.object_lightmap.empty() || !options_.object_lightmap[object]) return material;
+        const std::size_t lightmap = *options_.object_lightmap[object];
+        const auto [entry, is_new] = lit_materials_.try_emplace({material, lightmap}, 0);
+        if (is_new) {
+            json copy = builder_.root()["materials"][material];
+            copy["extensions"]["MOZ_lightmap"] = {{"index", lightmap_textures_[lightmap]},
+                                                  {"texCoord", 1},
+                                                  {"intensity", options_.lightmaps[lightmap].intensity}};
+            entry->second = builder_.add("materials", std::move(copy));
+        }
+        return entry->second;
     }
 
     Status write_object(std::size_t i) {
@@ -88,22 +135,25 @@ class Writer {
         if (!scene_.meshes[object.mesh].triangles.empty()) node["mesh"] = mesh_of(i);
         if (!options_.object_extras.empty())
             if (const Status s = add_extras(node, options_.object_extras[i], object.name); !s) return s;
+        if (!options_.object_extensions.empty())
+            if (const Status s = add_extensions(node, options_.object_extensions[i], object.name); !s) return s;
         add_node(std::move(node), object.name, object.world_from_object);
         return Done{};
     }
 
     /// Returns the index of the file's mesh for an object: that of its own mesh, or a copy that differs only in the
-    /// lightmap UVs.
+    /// lightmap UVs and the materials' lightmap.
     std::size_t mesh_of(std::size_t i) {
         const std::size_t m = scene_.objects[i].mesh;
-        const bool own_uv = !options_.lightmap_uv.empty() && !options_.lightmap_uv[i].empty();
-        if (const auto found = meshes_.find(m); found != meshes_.end() && !own_uv) return found->second;
+        const bool is_own = (!options_.lightmap_uv.empty() && !options_.lightmap_uv[i].empty()) ||
+                            (!options_.object_lightmap.empty() && options_.object_lightmap[i]);
+        if (const auto found = meshes_.find(m); found != meshes_.end() && !is_own) return found->second;
         MeshAccessors mesh = accessors_of(m);
         const auto add_lightmap = [&](const std::vector<Vec2>& values) {
             assert(values.size() == scene_.meshes[m].positions.size());
             mesh.attributes["TEXCOORD_1"] = builder_.add_vectors(values);
         };
-        if (own_uv) {
+        if (!options_.lightmap_uv.empty() && !options_.lightmap_uv[i].empty()) {
             add_lightmap(options_.lightmap_uv[i]);
         } else if (!scene_.meshes[m].lightmap_uv.empty()) {
             add_lightmap(scene_.meshes[m].lightmap_uv);
@@ -112,11 +162,12 @@ class Writer {
         if (fill_gaps(mesh.attributes)) out["extras"][k_no_lightmap] = true;
         json primitives;
         for (const auto& [material, indices] : mesh.primitives)
-            primitives.push_back({{"attributes", mesh.attributes}, {"indices", indices}, {"material", material}});
+            primitives.push_back(
+                {{"attributes", mesh.attributes}, {"indices", indices}, {"material", material_of(i, material)}});
         out["primitives"] = std::move(primitives);
         if (!scene_.meshes[m].name.empty()) out["name"] = scene_.meshes[m].name;
         const std::size_t index = builder_.add("meshes", std::move(out));
-        if (!own_uv) meshes_[m] = index;
+        if (!is_own) meshes_[m] = index;
         return index;
     }
 
@@ -207,6 +258,8 @@ class Writer {
     json nodes_ = json::array();
     std::map<std::size_t, std::size_t> meshes_;
     std::map<std::size_t, MeshAccessors> accessors_;
+    std::vector<std::size_t> lightmap_textures_;
+    std::map<std::pair<std::size_t, std::size_t>, std::size_t> lit_materials_;  ///< by material and lightmap
 };
 
 }  // namespace
@@ -215,6 +268,8 @@ class Writer {
 Result<std::string> encode_glb(const Scene& scene, const GltfWriteOptions& options) {
     assert(options.lightmap_uv.empty() || options.lightmap_uv.size() == scene.objects.size());
     assert(options.object_extras.empty() || options.object_extras.size() == scene.objects.size());
+    assert(options.object_extensions.empty() || options.object_extensions.size() == scene.objects.size());
+    assert(options.object_lightmap.empty() || options.object_lightmap.size() == scene.objects.size());
     return gltf::Writer(scene, options).write();
 }
 

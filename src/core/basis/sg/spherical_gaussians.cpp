@@ -220,6 +220,11 @@ std::shared_ptr<const LinearBasis> spherical_gaussians(std::size_t count, const 
     return std::make_shared<SphericalGaussians>(std::move(name), std::move(lobes), options.domain);
 }
 
+std::vector<Lobe> lobes_of(const Basis& basis) {
+    const auto* gaussians = dynamic_cast<const SphericalGaussians*>(&basis);
+    return gaussians == nullptr ? std::vector<Lobe>() : gaussians->lobes();
+}
+
 std::shared_ptr<const LinearBasis> spherical_gaussians(std::vector<Lobe> lobes, Domain domain) {
     check_range("lobes", lobes.size(), 1, k_most_lobes);
     for (const Lobe& lobe : lobes) check_sharpness(lobe.sharpness, 0);
