@@ -1,35 +1,19 @@
 #include "vulkan_compute.h"
 
-#include <fmt/format.h>
-#include <vulkan/vulkan.h>
-
 #include <algorithm>
 #include <cstdlib>
 #include <limits>
 
+#include "vulkan_calls.h"
+#include "vulkan_images.h"
+
 namespace lobelia::test {
 namespace {
-
-Status checked(VkResult result, const char* call) {
-    if (result == VK_SUCCESS) return Done{};
-    return Error{fmt::format("{} returned {}", call, static_cast<int>(result))};
-}
-/// Returns a structure of Vulkan with zeros besides its type.
-template <class T>
-T structure(VkStructureType type) {
-    T zeros{};
-    zeros.sType = type;
-    return zeros;
-}
-#define RETURN_IF_FAILED(call)                                                          \
-    do {                                                                                \
-        if (const Status status = checked(call, #call); !status) return status.error(); \
-    } while (false)
 
 /// A buffer that both sides see, mapped during its lifetime.
 class Buffer {
   public:
-    Buffer(VkDevice device, const VkPhysicalDeviceMemoryProperties& memory) : device_(device), kinds_(memory) {}
+    Buffer(VkPhysicalDevice physical, VkDevice device) : physical_(physical), device_(device) {}
     ~Buffer() {
         vkDestroyBuffer(device_, buffer_, nullptr);
         vkFreeMemory(device_, memory_, nullptr);
@@ -44,13 +28,10 @@ class Buffer {
         RETURN_IF_FAILED(vkCreateBuffer(device_, &create, nullptr, &buffer_));
         VkMemoryRequirements needs;
         vkGetBufferMemoryRequirements(device_, buffer_, &needs);
-        constexpr auto k_wanted = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
-        auto allocate = structure<VkMemoryAllocateInfo>(VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO);
-        allocate.allocationSize = needs.size;
-        for (std::uint32_t i = kinds_.memoryTypeCount; i-- > 0;)
-            if ((needs.memoryTypeBits >> i & 1) != 0 && (kinds_.memoryTypes[i].propertyFlags & k_wanted) == k_wanted)
-                allocate.memoryTypeIndex = i;
-        RETURN_IF_FAILED(vkAllocateMemory(device_, &allocate, nullptr, &memory_));
+        auto memory = allocated(physical_, device_, needs,
+                                VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT);
+        if (!memory) return memory.error();
+        memory_ = *memory;
         RETURN_IF_FAILED(vkBindBufferMemory(device_, buffer_, memory_, 0));
         void* data = nullptr;
         RETURN_IF_FAILED(vkMapMemory(device_, memory_, 0, VK_WHOLE_SIZE, 0, &data));
@@ -61,8 +42,8 @@ class Buffer {
     [[nodiscard]] VkDescriptorBufferInfo whole() const { return {buffer_, 0, VK_WHOLE_SIZE}; }
 
   private:
+    VkPhysicalDevice physical_;
     VkDevice device_;
-    const VkPhysicalDeviceMemoryProperties& kinds_;
     VkBuffer buffer_ = VK_NULL_HANDLE;
     VkDeviceMemory memory_ = VK_NULL_HANDLE;
     std::span<float> floats_;
@@ -124,7 +105,7 @@ class Compute final : public VulkanCompute {
     [[nodiscard]] std::string device() const override { return properties_.deviceName; }
 
     [[nodiscard]] Result<std::vector<float>> run(const ComputeJob& job) override {
-        Buffer first(device_, memory_), second(device_, memory_), results(device_, memory_);
+        Buffer first(physical_, device_), second(physical_, device_), results(physical_, device_);
         const std::array<std::pair<Buffer*, std::size_t>, 3> buffers = {
             {{&first, job.first.size()}, {&second, job.second.size()}, {&results, job.results}}};
         for (const auto& [buffer, floats] : buffers)
@@ -135,7 +116,10 @@ class Compute final : public VulkanCompute {
 
         Pipeline pipeline{device_};
         if (const Status status = pipeline.make(job, layout_); !status) return status.error();
-        bind({first.whole(), second.whole(), results.whole()});
+        VulkanImages images({physical_, device_, queue_, command_});
+        for (const ComputeTexture& texture : job.textures)
+            if (const Status status = images.add(texture); !status) return status.error();
+        bind({first.whole(), second.whole(), results.whole()}, images.descriptors());
         if (const Status status = submit(pipeline.pipeline, job.groups); !status) return status.error();
         return std::vector<float>(results.floats().begin(), results.floats().end());
     }
@@ -156,7 +140,6 @@ class Compute final : public VulkanCompute {
         std::stable_partition(devices.begin(), devices.end(), preferred);
         physical_ = devices.front();
         vkGetPhysicalDeviceProperties(physical_, &properties_);
-        vkGetPhysicalDeviceMemoryProperties(physical_, &memory_);
         return Done{};
     }
 
@@ -192,11 +175,13 @@ class Compute final : public VulkanCompute {
     }
 
     Status make_layouts() {
-        std::array<VkDescriptorSetLayoutBinding, 3> bindings{};
+        std::array<VkDescriptorSetLayoutBinding, 4> bindings{};
         for (std::uint32_t i = 0; i < 3; ++i)
             bindings[i] = {i, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr};
         auto set = structure<VkDescriptorSetLayoutCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO);
-        set.bindingCount = 3;
+        bindings[3] = {3, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, k_most_textures, VK_SHADER_STAGE_COMPUTE_BIT,
+                       nullptr};
+        set.bindingCount = 4;
         set.pBindings = bindings.data();
         RETURN_IF_FAILED(vkCreateDescriptorSetLayout(device_, &set, nullptr, &set_layout_));
         auto layout = structure<VkPipelineLayoutCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO);
@@ -204,11 +189,12 @@ class Compute final : public VulkanCompute {
         layout.pSetLayouts = &set_layout_;
         RETURN_IF_FAILED(vkCreatePipelineLayout(device_, &layout, nullptr, &layout_));
 
-        const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 3};
+        const std::array<VkDescriptorPoolSize, 2> sizes = {
+            {{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 3}, {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, k_most_textures}}};
         auto pool = structure<VkDescriptorPoolCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO);
         pool.maxSets = 1;
-        pool.poolSizeCount = 1;
-        pool.pPoolSizes = &size;
+        pool.poolSizeCount = sizes.size();
+        pool.pPoolSizes = sizes.data();
         RETURN_IF_FAILED(vkCreateDescriptorPool(device_, &pool, nullptr, &descriptors_));
         auto allocate = structure<VkDescriptorSetAllocateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO);
         allocate.descriptorPool = descriptors_;
@@ -218,12 +204,21 @@ class Compute final : public VulkanCompute {
         return Done{};
     }
 
-    void bind(const std::array<VkDescriptorBufferInfo, 3>& buffers) {
+    /// Shaders without textures do not use binding 3, so it may be empty for them; the rest of the array is never read.
+    void bind(const std::array<VkDescriptorBufferInfo, 3>& buffers, std::vector<VkDescriptorImageInfo> images) {
         auto write = structure<VkWriteDescriptorSet>(VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET);
         write.dstSet = descriptor_;
         write.descriptorCount = 3;
         write.descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
         write.pBufferInfo = buffers.data();
+        vkUpdateDescriptorSets(device_, 1, &write, 0, nullptr);
+        if (images.empty()) return;
+        images.resize(k_most_textures, images.front());
+        write.dstBinding = 3;
+        write.descriptorCount = k_most_textures;
+        write.descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+        write.pBufferInfo = nullptr;
+        write.pImageInfo = images.data();
         vkUpdateDescriptorSets(device_, 1, &write, 0, nullptr);
     }
 
@@ -252,7 +247,6 @@ class Compute final : public VulkanCompute {
     VkInstance instance_ = VK_NULL_HANDLE;
     VkPhysicalDevice physical_ = VK_NULL_HANDLE;
     VkPhysicalDeviceProperties properties_{};
-    VkPhysicalDeviceMemoryProperties memory_{};
     VkDevice device_ = VK_NULL_HANDLE;
     VkQueue queue_ = VK_NULL_HANDLE;
     VkCommandPool commands_ = VK_NULL_HANDLE;
