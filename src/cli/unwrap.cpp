@@ -7,6 +7,7 @@
 #include "cli/interrupt.h"
 #include "cli/options.h"
 #include "cli/process.h"
+#include "cli/tools_folder.h"
 #include "cli/verbs.h"
 #include "io/counted.h"
 #include "io/json.h"
@@ -30,19 +31,6 @@ struct UnwrapArguments {
 };
 
 constexpr std::size_t k_most_bytes = std::size_t{1} << 32;
-
-/// The folder of the script: where it is installed, or in the source tree that this program was built in.
-Result<std::filesystem::path> script_folder() {
-    std::vector<std::filesystem::path> folders;
-    if (const char* named = std::getenv("LOBELIA_TOOLS")) folders.emplace_back(named);
-    for (const char* relative : {"../share/lobelia/tools", "../../tools", "../tools"})
-        folders.push_back((program_folder() / relative).lexically_normal());
-    std::error_code code;
-    for (const auto& folder : folders)
-        if (std::filesystem::exists(folder / "unwrap.mjs", code)) return folder;
-    return Error{
-        fmt::format("unwrap.mjs is not found in {}; set LOBELIA_TOOLS to its folder", folders.front().string())};
-}
 
 /// Checks that the tools are installed, before anything is read.
 Status check_tools(const std::filesystem::path& folder, const std::atomic<bool>& stop) {
@@ -149,7 +137,7 @@ Status unwrap(const UnwrapArguments& options, const std::atomic<bool>& stop) {
     reading.stop = &stop;
     const auto input = read_gltf(options.in, reading);
     if (!input) return input.error();
-    const auto folder = script_folder();
+    const auto folder = tools_folder();
     if (!folder) return folder.error();
     if (const auto status = check_tools(*folder, stop); !status) return status;
 

@@ -20,8 +20,8 @@ struct Verb {
 /// THE list of verbs, in the order in which help shows them. To add a verb, write src/cli/NAME.cpp with add_NAME, which
 /// adds its subcommand to `app`, and put its name here.
 #define LOBELIA_VERBS(verb)                                                                                         \
-    verb(compare) verb(advise) verb(bake) verb(render) verb(merge) verb(scene) verb(unwrap) verb(encode) verb(eval) \
-        verb(reference) verb(convert) verb(shader) verb(list) verb(study)
+    verb(compare) verb(advise) verb(bake) verb(render) verb(view) verb(merge) verb(scene) verb(unwrap) verb(encode) \
+        verb(eval) verb(reference) verb(convert) verb(shader) verb(list) verb(study)
 
 #define LOBELIA_DECLARE_VERB(name) [[nodiscard]] Verb add_##name(CLI::App& app);
 LOBELIA_VERBS(LOBELIA_DECLARE_VERB)
