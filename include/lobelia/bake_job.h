@@ -71,6 +71,7 @@ struct ProbeOptions {
     double tolerance = 0.15;                 ///< divide a cell if the irradiance in its middle is off by this fraction
     std::uint32_t samples = 1024;            ///< per probe
     std::size_t most_probes = 1u << 20;      ///< more are an error
+    std::uint32_t visibility = 8;            ///< side of the octahedral maps of distance [texels]; 0: none
 };
 
 /// The textures of the pages' coefficients, and of their validity.

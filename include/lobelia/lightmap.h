@@ -78,6 +78,9 @@ struct ProbeSet {
     std::vector<Rgb> coefficients;           ///< coefficients_per_probe for each probe, one probe after another
     std::optional<ProbeGrid> grid;
     std::vector<ProbeCell> cells;
+    std::size_t visibility_side = 0;  ///< texels of a side of the octahedral maps; 0: there are none
+    /// Mean and mean square of the distances [m] that each probe sees: visibility_side^2 texels a probe.
+    std::vector<std::array<float, 2>> visibility = {};
 
     [[nodiscard]] std::size_t size() const { return positions.size(); }
 };

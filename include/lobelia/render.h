@@ -29,11 +29,15 @@ struct PathOptions {
 /// (scene.glb), which are UVs of the pages.
 enum class LightmapUv { original, of_copy };
 
+/// The surfaces of a bake that its probes light: none; those without a lightmap; all.
+enum class ProbeLight { none, unbaked, all };
+
 struct RenderOptions {
     std::size_t width = 960, height = 600;  ///< at least 1 each, at most 2^32 pixels together
     std::uint32_t samples = 64;             ///< per pixel
     unsigned threads = 0;                   ///< 0: one per processor
     LightmapUv lightmap_uv = LightmapUv::original;
+    ProbeLight probes = ProbeLight::none;       ///< of a bake; an error where it has none
     const std::atomic<bool>* stop = nullptr;    ///< ends the rendering early when it becomes true
     std::function<void(double)> progress = {};  ///< receives the fraction done; never called concurrently
 };
@@ -47,7 +51,8 @@ struct RenderOptions {
 /// Renders the scene lit by its bake. Where camera rays hit the front of a surface with a lightmap, the light is that
 /// of the pages, interpolated bilinearly: irradiance at the shading normal for the diffuse part, and radiance in a
 /// sampled direction of the specular lobe. The background, objects without lightmap UVs and backs of double-sided
-/// surfaces are path-traced with the bake's own options. An error if `stop` was set, or if scene and bake hold
+/// surfaces are path-traced with the bake's own options, unless `probes` has them lit by the bake's probes, as
+/// ProbeVolume reads them. An error if `stop` was set, or if scene and bake hold
 /// different objects.
 [[nodiscard]] Result<Image> render(const Scene& scene, const Bake& bake, const Camera& camera,
                                    const RenderOptions& options = {});

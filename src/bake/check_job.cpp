@@ -35,6 +35,7 @@ Status check_probes(const ProbeOptions& probes) {
     check("probe levels", probes.levels, ranges::probe_levels);
     check("probe tolerance", probes.tolerance, ranges::probe_tolerance);
     check("probe samples", probes.samples, ranges::probe_samples);
+    check("probe visibility", probes.visibility, ranges::probe_visibility);
     if (!probes.box) return check.status();
     const auto& [low, high] = *probes.box;
     if (!(low.x <= high.x && low.y <= high.y && low.z <= high.z))

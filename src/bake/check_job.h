@@ -26,6 +26,7 @@ inline constexpr OptionRange probe_spacing{0.001, 10000};  ///< [m]
 inline constexpr OptionRange probe_levels{0, 6};
 inline constexpr OptionRange probe_tolerance{0, 1e6};
 inline constexpr OptionRange probe_samples{64, 1'000'000};
+inline constexpr OptionRange probe_visibility{0, 32};    ///< [texels]
 inline constexpr OptionRange picture_samples{1, 65536};  ///< per pixel
 inline constexpr OptionRange uv_set{0, 7};
 inline constexpr OptionRange mip_levels{1, 15};

@@ -107,6 +107,11 @@ void add_probe_options(CLI::App& command, BakeArguments& a) {
         ->check(whole_in<int>(ranges::probe_levels));
     group.with_default("--probe-samples", a.probes.samples, "Samples per probe")
         ->check(whole_in<unsigned>(ranges::probe_samples));
+    group
+        .with_default(
+            "--probe-visibility", a.probes.visibility,
+            "Side of each probe's octahedral map of distances [texels], which keeps light behind walls; 0: none")
+        ->check(whole_in<unsigned>(ranges::probe_visibility));
 }
 
 void add_session_options(CLI::App& command, BakeArguments& a) {

@@ -26,6 +26,7 @@ struct RenderArguments {
     std::optional<double> exposure;
     std::string tone = "filmic";
     bool reference = false;
+    std::string probes = "none";
 };
 
 constexpr std::array k_tone_names{"clamp", "reinhard", "filmic"};
@@ -64,9 +65,13 @@ Result<Image> picture_of(const RenderArguments& arguments) {
     const Scene& scene = loaded->scene;
     const auto camera = find_camera(scene, arguments.camera);
     if (!camera) return camera.error();
+    if (!bake && arguments.probes != "none") return Error{"--probes: " + arguments.scene.path + " is not a bake"};
     if (!bake) return render(scene, *camera, arguments.paths, arguments.render);
     if (arguments.reference) return render(scene, *camera, bake->manifest.options.paths, arguments.render);
     RenderOptions options = arguments.render;
+    options.probes = arguments.probes == "none"  ? ProbeLight::none
+                     : arguments.probes == "all" ? ProbeLight::all
+                                                 : ProbeLight::unbaked;
     options.lightmap_uv = bake->manifest.scene ? LightmapUv::of_copy : LightmapUv::original;
     return render(scene, *bake, *camera, options);
 }
@@ -109,6 +114,11 @@ Verb add_render(CLI::App& app) {
         ->capture_default_str();
     command->add_option("--seed", arguments->paths.seed, "Random seed; a bake brings its own")->capture_default_str();
     command->add_flag("--reference,--truth", arguments->reference, "Path-trace the bake's scene for comparison");
+    command
+        ->add_option("--probes", arguments->probes,
+                     "Surfaces that the bake's probes light: none, those without a lightmap, or all")
+        ->check(CLI::IsMember({"none", "unbaked", "all"}))
+        ->capture_default_str();
     command->add_option("-t,--threads", arguments->render.threads, "Number of threads, 0: one per processor")
         ->check(CLI::Range(0u, 1024u))
         ->capture_default_str();

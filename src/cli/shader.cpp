@@ -26,7 +26,9 @@ Status shader_verb(const ShaderArguments& arguments) {
     }
     if (!arguments.needs.empty()) request.needs.clear();
     for (const auto& name : arguments.needs)
-        request.needs.push_back(name == "radiance" ? shade::Need::radiance : shade::Need::irradiance);
+        request.needs.push_back(name == "radiance" ? shade::Need::radiance
+                                : name == "probes" ? shade::Need::probes
+                                                   : shade::Need::irradiance);
     const auto text = shade::shader_text(*codec, request);
     if (!text) return text.error();
     if (!arguments.out.empty()) return write_file_atomically(arguments.out, *text);
@@ -53,8 +55,10 @@ Verb add_shader(CLI::App& app) {
     command->add_option("--language", a->language, "Language of the code")
         ->check(CLI::IsMember(languages))
         ->capture_default_str();
-    command->add_option("--need", a->needs, "Functions to write (default: irradiance)")
-        ->check(CLI::IsMember({"irradiance", "radiance"}))
+    command
+        ->add_option("--need", a->needs,
+                     "Functions to write; probes: the weights of the probes around a place (default: irradiance)")
+        ->check(CLI::IsMember({"irradiance", "radiance", "probes"}))
         ->delimiter(',');
     add_out_option(*command, a->out, "Output file (default: standard output)");
     return {command, [a] { return shader_verb(*a); }};

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "shade/probe_functions.h"
 #include "shade/translate.h"
 
 namespace lobelia::shade {
@@ -128,6 +129,12 @@ Result<std::string> shader_text(const Codec& codec, const ShaderRequest& request
 
     // Evaluate coefficients.
     for (const Need need : request.needs) {
+        if (need == Need::probes) {
+            if (codec.basis().domain() != Domain::sphere)
+                return Error{codec.basis().name() + " is a basis over the hemisphere, and probes need the sphere"};
+            functions.add(probe_functions());
+            continue;
+        }
         const auto code = code_of(codec, need);
         if (!code) return code.error();
         functions.add(code->functions);

@@ -12,7 +12,8 @@
 namespace lobelia::shade {
 
 /// The functions of a text.
-enum class Need { irradiance, radiance };
+/// probes: weights of the eight probes around a place, as ProbeVolume has them.
+enum class Need { irradiance, radiance, probes };
 
 /// The frame of the coefficients' directions: that of the scene, or one of each texel's own, about its normal.
 enum class Frame { scene, tangent };

@@ -117,7 +117,10 @@ class Compute final : public VulkanCompute {
         Pipeline pipeline{device_};
         if (const Status status = pipeline.make(job, layout_); !status) return status.error();
         VulkanImages images({physical_, device_, queue_, command_});
-        for (const ComputeTexture& texture : job.textures)
+        // Drivers look at the whole set, also at samplers that the shader does not use.
+        constexpr std::byte k_black{0};
+        const ComputeTexture none{VK_FORMAT_R8_UNORM, 1, 1, {&k_black, 1}};
+        for (const ComputeTexture& texture : job.textures.empty() ? std::span(&none, 1) : job.textures)
             if (const Status status = images.add(texture); !status) return status.error();
         bind({first.whole(), second.whole(), results.whole()}, images.descriptors());
         if (const Status status = submit(pipeline.pipeline, job.groups); !status) return status.error();
@@ -204,7 +207,7 @@ class Compute final : public VulkanCompute {
         return Done{};
     }
 
-    /// Shaders without textures do not use binding 3, so it may be empty for them; the rest of the array is never read.
+    /// The last of the images stands for the rest of the array, too.
     void bind(const std::array<VkDescriptorBufferInfo, 3>& buffers, std::vector<VkDescriptorImageInfo> images) {
         auto write = structure<VkWriteDescriptorSet>(VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET);
         write.dstSet = descriptor_;
@@ -212,8 +215,7 @@ class Compute final : public VulkanCompute {
         write.descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
         write.pBufferInfo = buffers.data();
         vkUpdateDescriptorSets(device_, 1, &write, 0, nullptr);
-        if (images.empty()) return;
-        images.resize(k_most_textures, images.front());
+        images.resize(k_most_textures, images.back());
         write.dstBinding = 3;
         write.descriptorCount = k_most_textures;
         write.descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;

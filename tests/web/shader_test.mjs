@@ -31,6 +31,7 @@ const evaluators = codecs.filter((_, i) => parts.findIndex(([basis, , evaluator]
 const storages = ["float32", "float16", "ycocg", "rgb9e5", "rgbe", "rgbm", "logluv", "bc6h", "bc6h-signed", "ratio8", "ratio10", "bc6h-ratio8"];
 function texts(language) {
     const list = evaluators.map((codec) => [codec, code(language, codec, "--need", "irradiance,radiance")]);
+    list.push(["sh2 of probes", code(language, "sh2/moments/convolution", "--need", "irradiance,probes")]);
     for (const codec of ["sh1/moments/geomerics", "sg12/nnls/hill"])
         for (const storage of storages) list.push([`${codec} as ${storage}`, code(language, codec, "--storage", storage)]);
     return list.filter(([, text]) => text !== null);

@@ -11,6 +11,7 @@
 #include <mutex>
 
 #include "bake/gather/pass.h"
+#include "bake/probes/probe_visibility.h"
 #include "lobelia/sampling.h"
 
 namespace lobelia {
@@ -334,7 +335,13 @@ Result<ProbeSet> bake_probes(const PathTracer& tracer, const ProbeOptions& optio
     if (auto status = check(options, tracer.world()); !status) return status.error();
     ProbeBaker baker(tracer, options, make_codec(options.codec).value(), session);
     if (auto status = baker.run(); !status) return status.error();
-    return baker.result();
+    ProbeSet probes = baker.result();
+    dilate_probes(probes);
+    // A place is never farther from a corner of its cell than the diagonal, and its bias.
+    if (options.visibility > 0)
+        measure_visibility(probes, tracer, options.visibility,
+                           1.5f * std::sqrt(3.0f) * static_cast<float>(options.spacing), session.stop);
+    return probes;
 }
 
 }  // namespace lobelia

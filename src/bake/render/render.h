@@ -6,6 +6,7 @@
 
 #include "lobelia/bake.h"
 #include "lobelia/codec.h"
+#include "lobelia/probe_volume.h"
 #include "trace/path_tracer.h"
 
 namespace lobelia {
@@ -21,8 +22,10 @@ struct BakedLight {
     std::span<const LightmapPage> pages;
     std::vector<AtlasPlacement> placements;  ///< of each object
     PageChannels channels;
-    std::optional<Codec> codec;  ///< absent: pages hold irradiance only
-    Frame frame = Frame::world;  ///< of the coefficients
+    std::optional<Codec> codec;                ///< absent: pages hold irradiance only
+    Frame frame = Frame::world;                ///< of the coefficients
+    std::optional<ProbeVolume> volume = {};    ///< for objects that probes light
+    std::vector<std::uint8_t> by_probes = {};  ///< of each object: nonzero if they light it; empty: none
 };
 /// Returns the light of a bake, which must outlive it. An error if its codec is unknown.
 [[nodiscard]] Result<BakedLight> light_of(const Bake& bake, LightmapUv uv = LightmapUv::original);

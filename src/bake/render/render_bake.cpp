@@ -21,6 +21,7 @@ struct Taps {
     std::array<float, 4> weight;
 
     [[nodiscard]] float value(std::size_t plane) const {
+        if (page == nullptr) return 0;
         const std::vector<float>& p = page->planes[plane];
         float sum = 0;
         for (std::size_t k = 0; k < 4; ++k) sum += weight[k] * p[texel[k]];
@@ -43,8 +44,8 @@ Taps taps_at(const LightmapPage& page, Vec2 p) {
 /// A visible point of a baked surface, and the terms of its shading.
 struct BakedPoint {
     std::uint32_t of_ray = 0;
-    Taps taps;
-    Vec3 normal;  ///< unit, in the world
+    Taps taps;              ///< without a page where probes light the surface
+    Vec3 position, normal;  ///< unit normal, in the world
     Rgb emission;
     Rgb base;       ///< diffuse part of L over E / pi
     Rgb layer;      ///< specular part of L over the radiance from `mirrored`
@@ -74,6 +75,7 @@ class BakeWorker {
     [[nodiscard]] Taps taps(const PathTracer::Hit& hit) const;
     [[nodiscard]] BakedPoint point(const Sight& sight, std::uint32_t of_ray) const;
     void evaluate(MutableColourView irradiance, MutableColourView mirrored);
+    void evaluate_probes(MutableColourView irradiance, MutableColourView mirrored);
     void add_points(RenderTile& tile);
 
     const PathTracer* tracer_;
@@ -82,7 +84,8 @@ class BakeWorker {
     PathShader paths_;
     std::vector<Sight> sights_;
     std::vector<BakedPoint> points_;
-    std::vector<float> block_;  ///< coefficients of points_: a plane of k_block_size for each channel
+    std::vector<Rgb> coefficients_;  ///< of one point between probes
+    std::vector<float> block_;       ///< coefficients of points_: a plane of k_block_size for each channel
 };
 
 Taps BakeWorker::taps(const PathTracer::Hit& hit) const {
@@ -99,7 +102,9 @@ BakedPoint BakeWorker::point(const Sight& sight, std::uint32_t of_ray) const {
     const SurfacePoint at = view_->surfaces().point(triangle, u, v, sight.start.direction);
     BakedPoint p;
     p.of_ray = of_ray;
-    p.taps = taps(sight.hit);
+    const std::uint32_t object = tracer_->world().object[triangle];
+    if (light_->by_probes.empty() || light_->by_probes[object] == 0) p.taps = taps(sight.hit);
+    p.position = at.origin;
     p.normal = at.normal;
     p.emission = view_->surfaces().emission(triangle, u, v);
 
@@ -150,9 +155,26 @@ void BakeWorker::evaluate(MutableColourView irradiance, MutableColourView mirror
     if (light_->codec->evaluator().negative() == Negative::clamped) clamp_negative(mirrored);
 }
 
+/// The same for points that probes light.
+void BakeWorker::evaluate_probes(MutableColourView irradiance, MutableColourView mirrored) {
+    if (!light_->volume) return;
+    const ProbeVolume& volume = *light_->volume;
+    coefficients_.resize(volume.coefficients());
+    for (std::size_t j = 0; j < points_.size(); ++j) {
+        const BakedPoint& p = points_[j];
+        if (p.taps.page != nullptr) continue;
+        volume.coefficients(p.position, p.normal, coefficients_);
+        set_entry(irradiance, j, volume.codec().irradiance(coefficients_, p.normal));
+        if (p.mirrored == Vec3{}) continue;
+        const Rgb L = volume.codec().radiance(coefficients_, Axes(tangent_from_world(p.normal)).world(p.mirrored));
+        set_entry(mirrored, j, Rgb{std::max(0.0f, L.r), std::max(0.0f, L.g), std::max(0.0f, L.b)});
+    }
+}
+
 void BakeWorker::add_points(RenderTile& tile) {
     Colours irradiance(points_.size()), mirrored(points_.size());
     evaluate(irradiance, mirrored);
+    evaluate_probes(irradiance, mirrored);
     for (std::size_t j = 0; j < points_.size(); ++j) {
         const BakedPoint& p = points_[j];
         const Rgb diffuse = product(p.base, colour_at(irradiance.view(), j)) * k_over_pi;
@@ -168,7 +190,8 @@ std::optional<Image> render_bake(const PathTracer& tracer, const BakedLight& lig
     assert(light.placements.size() == tracer.scene().objects.size());
     const CameraRays rays(camera, options.width, options.height, tracer.options().seed);
     std::vector<std::uint8_t> baked;
-    for (const AtlasPlacement& placement : light.placements) baked.push_back(placement.baked ? 1 : 0);
+    for (std::size_t i = 0; i < light.placements.size(); ++i)
+        baked.push_back(light.placements[i].baked || (!light.by_probes.empty() && light.by_probes[i] != 0) ? 1 : 0);
     const CameraView view(tracer, std::move(baked));
     static_assert(k_rays_at_once <= k_block_size);
     return render_tiles(rays, options, [&] { return std::make_unique<BakeWorker>(tracer, view, light); });

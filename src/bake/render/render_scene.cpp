@@ -19,6 +19,18 @@ Result<Image> finished(std::optional<Image> image) {
     return *std::move(image);
 }
 
+/// Has the bake's probes light objects.
+Status add_probes(BakedLight& light, const Bake& bake, ProbeLight which) {
+    if (which == ProbeLight::none) return Done{};
+    if (!bake.probes) return Error{"the bake has no probes: bake it with --probes"};
+    auto volume = ProbeVolume::make(*bake.probes);
+    if (!volume) return Error{"probes: " + volume.error().message};
+    light.volume = *std::move(volume);
+    for (const AtlasPlacement& placement : light.placements)
+        light.by_probes.push_back(which == ProbeLight::all || !placement.baked ? 1 : 0);
+    return Done{};
+}
+
 }  // namespace
 
 Result<Image> render(const Scene& scene, const Camera& camera, const PathOptions& paths, const RenderOptions& options) {
@@ -30,8 +42,9 @@ Result<Image> render(const Scene& scene, const Bake& bake, const Camera& camera,
     if (scene.objects.size() != bake.manifest.objects.size())
         return Error{fmt::format("the bake has {} objects, but the scene has {}", bake.manifest.objects.size(),
                                  scene.objects.size())};
-    const auto light = light_of(bake, options.lightmap_uv);
+    auto light = light_of(bake, options.lightmap_uv);
     if (!light) return light.error();
+    if (Status status = add_probes(*light, bake, options.probes); !status) return status.error();
     const World world = make_world(scene);
     const PathTracer tracer(scene, world, with_seen_surface(bake.manifest.options.paths));
     return finished(render_bake(tracer, *light, camera, options));

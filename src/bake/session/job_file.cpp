@@ -53,6 +53,7 @@ void fields(auto& archive, ProbeOptions& options) {
     archive.whole("levels", options.levels, 0, 1u << 30);
     archive.number("tolerance", options.tolerance);
     archive.whole("samples", options.samples, 0, k_any_u32);
+    archive.whole("visibility", options.visibility, 0, k_any_u32);
 }
 
 void fields(auto& archive, SceneSource& scene) {

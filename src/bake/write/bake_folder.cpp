@@ -14,6 +14,7 @@
 #include "bake/write/page_files.h"
 #include "bake/write/page_textures.h"
 #include "bake/write/probe_files.h"
+#include "bake/write/probe_textures.h"
 #include "bake/write/scene_copy.h"
 #include "bake/write/shader_files.h"
 #include "core/math/half.h"
@@ -29,6 +30,7 @@ constexpr const char* k_scene_name = "scene.glb";
 constexpr const char* k_environment_name = "environment.exr";
 constexpr const char* k_probes_name = "probes.json";
 constexpr const char* k_probe_coefficients_name = "probes.bin";
+constexpr const char* k_probe_visibility_name = "probes.visibility.bin";
 
 /// Finds the largest magnitude on all pages. An error for a value that is not finite.
 Result<float> largest_value(const Bake& bake) {
@@ -77,13 +79,20 @@ Status add_pages(FilesTogether& files, const Bake& bake, const PageTextures& tex
     return Done{};
 }
 
-Status add_probes(FilesTogether& files, const Bake& bake, Manifest& manifest) {
+Status add_probes(FilesTogether& files, const Bake& bake, const TextureOptions& textures, Manifest& manifest) {
     manifest.probes.reset();
     if (!bake.probes) return Done{};
     manifest.probes = k_probes_name;
     auto status = files.add(k_probe_coefficients_name,
                             [&](StagedFile& file) { return write_probe_coefficients(file, *bake.probes); });
-    if (status) status = files.add_text(k_probes_name, to_json_text(*bake.probes, k_probe_coefficients_name));
+    const bool has_maps = bake.probes->visibility_side > 0;
+    if (status && has_maps)
+        status = files.add(k_probe_visibility_name,
+                           [&](StagedFile& file) { return write_probe_visibility(file, *bake.probes); });
+    if (status)
+        status = files.add_text(k_probes_name, to_json_text(*bake.probes, k_probe_coefficients_name,
+                                                            has_maps ? k_probe_visibility_name : ""));
+    if (status) status = add_probe_textures(files, *bake.probes, textures);
     return status;
 }
 
@@ -105,11 +114,12 @@ Status add_scene(FilesTogether& files, const Scene& scene, std::vector<GltfLight
 
 /// Returns whether a bake may have a file of this name.
 bool is_name_of_bake(std::string_view name) {
-    for (const char* each : {k_scene_name, k_environment_name, k_probes_name, k_probe_coefficients_name})
+    for (const char* each :
+         {k_scene_name, k_environment_name, k_probes_name, k_probe_coefficients_name, k_probe_visibility_name})
         if (name == each) return true;
     if (is_name_of_shader(name)) return true;
     const auto containers = texture_containers();
-    return name.starts_with("page-") &&
+    return (name.starts_with("page-") || name.starts_with("probes.")) &&
            (name.ends_with(".exr") || std::any_of(containers.begin(), containers.end(), [&](const auto& container) {
                 return name.ends_with("." + std::string(container.name));
             }));
@@ -166,7 +176,7 @@ Result<Manifest> write_bake(FilesTogether files, const Bake& bake, const WriteBa
     if (status) status = add_pages(files, bake, *textures, manifest);
     if (status) status = add_exports(files, bake, *exports, manifest);
     if (status) status = add_shaders(files, textures->storages(), manifest);
-    if (status) status = add_probes(files, bake, manifest);
+    if (status) status = add_probes(files, bake, options.textures, manifest);
     if (status && options.scene != nullptr) {
         auto lightmaps = lightmaps_in_scene(bake, *exports);
         if (!lightmaps) return lightmaps.error();

@@ -17,6 +17,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
+constexpr std::uint64_t k_most_visibility_side = 64;
 constexpr std::uint64_t k_most_probes = 1u << 26, k_most_cells = 1u << 26, k_most_coefficients = 4096;
 constexpr std::uintmax_t k_most_mebibytes = 16384;
 static_assert(std::endian::native == std::endian::little, "files are little-endian");
@@ -90,15 +91,37 @@ std::string read_description(const JsonPlace& top, ProbeSet& probes) {
     return top.at("file").file_name();
 }
 
-Status read_coefficients(const std::filesystem::path& path, ProbeSet& probes) {
+/// Reads floats that are all there are in a file.
+template <class T>
+Status read_floats(const std::filesystem::path& path, std::size_t count, const std::string& what, std::vector<T>& out) {
     const auto bytes = read_text(path, k_most_mebibytes);
     if (!bytes) return bytes.error();
-    const std::size_t values = 3 * probes.size() * probes.coefficients_per_probe;
-    if (bytes->size() != values * sizeof(float))
-        return Error{fmt::format("{}: {} bytes, but {} probes of {} coefficients take {}", path.string(), bytes->size(),
-                                 probes.size(), probes.coefficients_per_probe, values * sizeof(float))};
-    probes.coefficients.resize(values / 3);
-    std::memcpy(probes.coefficients.data(), bytes->data(), bytes->size());
+    if (bytes->size() != count * sizeof(float))
+        return Error{
+            fmt::format("{}: {} bytes, but {} take {}", path.string(), bytes->size(), what, count * sizeof(float))};
+    out.resize(count * sizeof(float) / sizeof(T));
+    std::memcpy(out.data(), bytes->data(), bytes->size());
+    return Done{};
+}
+
+Status read_visibility(const std::filesystem::path& path, ProbeSet& probes) {
+    const std::size_t texels = probes.size() * probes.visibility_side * probes.visibility_side;
+    const std::string what =
+        fmt::format("maps of {0} x {0} texels for {1} probes", probes.visibility_side, probes.size());
+    if (Status status = read_floats(path, 2 * texels, what, probes.visibility); !status) return status;
+    for (std::size_t i = 0; i < texels; ++i) {
+        const auto [mean, square] = probes.visibility[i];
+        if (!(mean >= 0 && square >= 0) || !std::isfinite(mean) || !std::isfinite(square))
+            return Error{fmt::format("{}: texel {} is not a distance and its square", path.string(), i)};
+    }
+    return Done{};
+}
+
+Status read_coefficients(const std::filesystem::path& path, ProbeSet& probes) {
+    const std::string what = fmt::format("{} probes of {} coefficients", probes.size(), probes.coefficients_per_probe);
+    if (Status status = read_floats(path, 3 * probes.size() * probes.coefficients_per_probe, what, probes.coefficients);
+        !status)
+        return status;
     for (std::size_t i = 0; i < probes.coefficients.size(); ++i) {
         const Rgb c = probes.coefficients[i];
         if (!std::isfinite(c.r) || !std::isfinite(c.g) || !std::isfinite(c.b))
@@ -110,7 +133,9 @@ Status read_coefficients(const std::filesystem::path& path, ProbeSet& probes) {
 
 }  // namespace
 
-std::string to_json_text(const ProbeSet& probes, std::string_view binary_file) {
+std::string to_json_text(const ProbeSet& probes, std::string_view binary_file, std::string_view visibility_file) {
+    ordered_json visibility;
+    if (!visibility_file.empty()) visibility = {{"file", visibility_file}, {"side", probes.visibility_side}};
     ordered_json positions = ordered_json::array(), cells = ordered_json::array(), grid;
     for (const Vec3& position : probes.positions) positions.push_back(triple(position));
     for (const ProbeCell& cell : probes.cells) cells.push_back(to_json(cell));
@@ -128,7 +153,8 @@ std::string to_json_text(const ProbeSet& probes, std::string_view binary_file) {
                                    {"positions", std::move(positions)},
                                    {"validity", singles(probes.validity)},
                                    {"back_faces", singles(probes.back_faces)},
-                                   {"cells", std::move(cells)}};
+                                   {"cells", std::move(cells)},
+                                   {"visibility", std::move(visibility)}};
     return json_text(document) + "\n";
 }
 
@@ -141,10 +167,18 @@ Status write_probe_coefficients(StagedFile& file, const ProbeSet& probes) {
     return file.write(std::as_bytes(std::span(probes.coefficients)));
 }
 
+Status write_probe_visibility(StagedFile& file, const ProbeSet& probes) {
+    return file.write(std::as_bytes(std::span(probes.visibility)));
+}
+
 Result<ProbeDescription> probes_from_json(std::string_view text, const std::string& name) {
     return read_json(text, name, [](const JsonPlace& top) {
         ProbeDescription result;
         result.file = read_description(top, result.probes);
+        if (const auto visibility = top.find("visibility")) {
+            result.visibility = visibility->at("file").file_name();
+            result.probes.visibility_side = visibility->at("side").whole(1, k_most_visibility_side);
+        }
         return result;
     });
 }
@@ -159,6 +193,11 @@ Result<ProbeSet> read_probes(const BakeFiles& files, const std::string& name) {
     const auto coefficients = files.checked(description->file);
     if (!coefficients) return coefficients.error();
     if (auto status = read_coefficients(*coefficients, description->probes); !status) return status.error();
+    if (description->visibility) {
+        const auto visibility = files.checked(*description->visibility);
+        if (!visibility) return visibility.error();
+        if (auto status = read_visibility(*visibility, description->probes); !status) return status.error();
+    }
     return std::move(description->probes);
 }
 
