@@ -21,7 +21,7 @@ struct Verb {
 /// adds its subcommand to `app`, and put its name here.
 #define LOBELIA_VERBS(verb)                                                                                         \
     verb(compare) verb(advise) verb(bake) verb(render) verb(view) verb(merge) verb(scene) verb(unwrap) verb(encode) \
-        verb(eval) verb(reference) verb(convert) verb(shader) verb(list) verb(study)
+        verb(eval) verb(reference) verb(prefilter) verb(convert) verb(shader) verb(list) verb(study)
 
 #define LOBELIA_DECLARE_VERB(name) [[nodiscard]] Verb add_##name(CLI::App& app);
 LOBELIA_VERBS(LOBELIA_DECLARE_VERB)

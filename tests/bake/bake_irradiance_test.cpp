@@ -322,8 +322,9 @@ TEST(BakeFolder, MorePagesThanFilesMayBeOpen) {
     const auto status = write_bake(folder.path(), bake, {.textures = {.storages = {{"bc6h-signed"}}, .arrays = Switch::off}});
     ::setrlimit(RLIMIT_NOFILE, &old);
     ASSERT_TRUE(status) << status.error().message;
-    // Of each page its file, four textures and validity; bake.json, two files of probes, four of shader code.
-    EXPECT_EQ(folder.entries(), (1u + 4 + 1) * 22 + 3 + 4);  // more than may be open
+    // Of each page its file, four textures and validity; bake.json, two files of probes and a texture of their validity,
+    // four of shader code.
+    EXPECT_EQ(folder.entries(), (1u + 4 + 1) * 22 + 4 + 4);  // more than may be open
     EXPECT_TRUE(read_bake(folder.path()));
     // If the last file does not fit, nothing is left behind, including temporary files.
     bake.pages.back().chart[0] = (1u << 24) + 1;
