@@ -1,5 +1,5 @@
 // Light between probes, as a renderer reads it: trilinear, without what lies in walls or behind them.
-// Majercik et al. 2019 (visibility by moments of distance); Cigolla et al. and McGuire (octahedral maps).
+// Majercik et al. 2019 (visibility by moments of distance); Cigolle et al. 2014 (octahedral maps).
 #pragma once
 
 #include <array>
