@@ -38,12 +38,33 @@ class SpecularEvaluator {
     [[nodiscard]] virtual Accuracy accuracy() const = 0;
     /// Computes L(v) for a Fresnel factor of 1. Precondition: out.size = points.size().
     virtual void reflected(std::span<const Rgb> c, const SpecularPoints& points, MutableColourView out) const = 0;
+    /// Returns the shader code of reflected(): the body of
+    ///
+    ///   vec3 reflected(Coefficients light, GgxTexels texels, vec3 n, vec3 v, float alpha),
+    ///
+    /// of which the result is the name of a variable. `texels` are those of ggx_table() that the code's struct
+    /// GgxTexels names. Errors: an evaluator that has none, with the reason.
+    [[nodiscard]] virtual Result<ShaderCode> reflected_code() const {
+        return Error{"specular evaluator " + name() + " has no shader code"};
+    }
 };
 
 /// Computes L(v) of a surface with reflectance `f0` along its normal, by the split sum: reflected() times the fraction
 /// of a constant light that Schlick's Fresnel factor reflects.
 void specular(const SpecularEvaluator& evaluator, std::span<const Rgb> c, const SpecularPoints& points, Rgb f0,
               MutableColourView out);
+/// Returns the shader code of specular(): as reflected_code(), with a last parameter vec3 f0. Errors: those of
+/// reflected_code().
+[[nodiscard]] Result<ShaderCode> specular_code(const SpecularEvaluator& evaluator);
+
+/// A table of four channels for shaders: texel (x, y) of a layer is at 4 ((layer height + y) width + x).
+struct SpecularTable {
+    std::size_t width, height, layers;
+    std::vector<float> texels;
+};
+/// Returns the table of reflection lobes, which shader code samples with linear filtering, clamped at its edges, at
+/// ggx_coordinates(n.v, alpha). Values are within -1 to 2; half floats change albedo and Fresnel by at most 2.5e-4.
+[[nodiscard]] SpecularTable ggx_table();
 
 /// Makes an evaluator for any basis: it samples the radiance, clamped at 0, in `count` directions of visible normals (a
 /// Hammersley set, the same for every point). Converges to the integral; broad lights and smooth surfaces need few

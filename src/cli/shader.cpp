@@ -1,16 +1,19 @@
 // lobelia shader: the functions that a renderer needs to unpack and evaluate a codec.
-#include "shade/shader.h"
+#include <algorithm>
+
+#include "bake/write/ggx_table_file.h"
 #include "cli/common.h"
 #include "cli/lobe_files.h"
 #include "cli/options.h"
 #include "cli/output.h"
 #include "cli/verbs.h"
+#include "shade/shader.h"
 
 namespace lobelia::cli {
 namespace {
 
 struct ShaderArguments {
-    std::string codec, storage, language = "glsl", out;
+    std::string codec, storage, specular, table, language = "glsl", out;
     std::vector<std::string> needs;
 };
 
@@ -26,11 +29,17 @@ Status shader_verb(const ShaderArguments& arguments) {
     }
     if (!arguments.needs.empty()) request.needs.clear();
     for (const auto& name : arguments.needs)
-        request.needs.push_back(name == "radiance" ? shade::Need::radiance
-                                : name == "probes" ? shade::Need::probes
-                                                   : shade::Need::irradiance);
+        for (const auto& entry : shade::needs())
+            if (entry.name == name) request.needs.push_back(entry.need);
+    const auto& needs = request.needs;
+    if (std::find(needs.begin(), needs.end(), shade::Need::specular) == needs.end() &&
+        !(arguments.specular.empty() && arguments.table.empty()))
+        return Error{"--specular and --table are for specular code: add --need specular"};
+    request.specular = arguments.specular;
     const auto text = shade::shader_text(*codec, request);
     if (!text) return text.error();
+    if (!arguments.table.empty())
+        if (Status status = write_ggx_table(arguments.table); !status) return status;
     if (!arguments.out.empty()) return write_file_atomically(arguments.out, *text);
     print_text(*text);
     return Done{};
@@ -55,11 +64,16 @@ Verb add_shader(CLI::App& app) {
     command->add_option("--language", a->language, "Language of the code")
         ->check(CLI::IsMember(languages))
         ->capture_default_str();
+    std::vector<std::string> needs;
+    for (const auto& entry : shade::needs()) needs.emplace_back(entry.name);
     command
         ->add_option("--need", a->needs,
                      "Functions to write; probes: the weights of the probes around a place (default: irradiance)")
-        ->check(CLI::IsMember({"irradiance", "radiance", "probes"}))
+        ->check(CLI::IsMember(needs))
         ->delimiter(',');
+    command->add_option("--specular", a->specular,
+                        "Specular evaluator, see lobelia list --axes (default: the basis's most accurate one)");
+    command->add_option("--table", a->table, "Also write the texture that specular code samples, as .ktx2 or .dds");
     add_out_option(*command, a->out, "Output file (default: standard output)");
     return {command, [a] { return shader_verb(*a); }};
 }

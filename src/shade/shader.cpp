@@ -3,27 +3,43 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
+#include "lobelia/specular.h"
 #include "shade/probe_functions.h"
 #include "shade/translate.h"
 
 namespace lobelia::shade {
 namespace {
 
-/// A function of coefficients and a direction.
-struct NeedInfo {
-    std::string_view name, direction, value;
+constexpr std::array k_needs = {
+    NeedInfo{Need::irradiance, "irradiance", "vec3 n", "Returns irradiance E(n) [W/m^2] at the unit normal n."},
+    NeedInfo{Need::radiance, "radiance", "vec3 w", "Returns radiance L(w) [W/(m^2 sr)] from the unit direction w."},
+    NeedInfo{
+        Need::specular, "specular", "GgxTexels texels, vec3 n, vec3 v, float alpha, vec3 f0",
+        "Returns the radiance [W/(m^2 sr)] that a GGX surface of the unit normal n reflects in the unit direction v "
+        "to the\n/// viewer. alpha is the square of glTF's roughness, f0 the reflectance along the normal."},
+    NeedInfo{Need::probes, "probes", {}, {}},
 };
-const NeedInfo& info(Need need) {
-    static constexpr NeedInfo k_irradiance = {"irradiance", "n",
-                                              "Returns irradiance E(n) [W/m^2] at the unit normal n."};
-    static constexpr NeedInfo k_radiance = {"radiance", "w",
-                                            "Returns radiance L(w) [W/(m^2 sr)] from the unit direction w."};
-    return need == Need::irradiance ? k_irradiance : k_radiance;
+
+/// Returns the specular evaluator that a request names, or the most accurate one of the basis.
+Result<std::shared_ptr<const SpecularEvaluator>> specular_of(const Codec& codec, const ShaderRequest& request) {
+    const std::shared_ptr<const Basis> basis(codec.encoder(), &codec.basis());
+    const auto names = basis->specular_names();
+    if (!request.specular.empty()) return make_specular(request.specular, basis);
+    if (!names.empty()) return make_specular(names.back(), basis);
+    std::string others;
+    for (const auto& name : basis_names())
+        if (!make_basis(name).value()->specular_names().empty()) others += (others.empty() ? "" : ", ") + name;
+    return Error{fmt::format("basis {} has no specular evaluator with shader code; those that have one: {}",
+                             basis->name(), others)};
 }
 
-Result<ShaderCode> code_of(const Codec& codec, Need need) {
-    return need == Need::irradiance ? codec.evaluator().irradiance_code() : codec.basis().radiance_code();
+Result<ShaderCode> code_of(const Codec& codec, const ShaderRequest& request, Need need) {
+    if (need == Need::radiance) return codec.basis().radiance_code();
+    if (need == Need::irradiance) return codec.evaluator().irradiance_code();
+    const auto evaluator = specular_of(codec, request);
+    return evaluator ? specular_code(**evaluator) : evaluator.error();
 }
 
 /// Collects functions, each once.
@@ -45,10 +61,10 @@ class Functions {
 
 std::string function_text(Need need, const ShaderCode& code, Negative negative) {
     const NeedInfo& about = info(need);
-    const std::string result =
-        negative == Negative::clamped ? fmt::format("max({}, vec3(0.0))", code.result) : code.result;
-    return fmt::format("/// {}\nvec3 {}(Coefficients light, vec3 {}) {{\n{}    return {};\n}}\n", about.value,
-                       about.name, about.direction, code.statements, result);
+    const bool clamped = negative == Negative::clamped && need != Need::specular;
+    const std::string result = clamped ? fmt::format("max({}, vec3(0.0))", code.result) : code.result;
+    return fmt::format("/// {}\nvec3 {}(Coefficients light, {}) {{\n{}    return {};\n}}\n", about.value, about.name,
+                       about.parameters, code.statements, result);
 }
 
 Frame frame_of(const Codec& codec, const ShaderRequest& request) {
@@ -75,29 +91,43 @@ vec3 to_tangent(vec3 normal, vec3 w) {
 
 /// The comment at the head of the text, without the marks of a comment.
 std::string head(const Codec& codec, const ShaderRequest& request) {
-    const Accuracy accuracy = codec.evaluator().accuracy();
     std::string text = fmt::format("{}{}, {}.\n\n", codec.name().str(),
                                    request.storage ? fmt::format(" stored as {}", request.storage->name) : "",
                                    shade::info(request.language).description);
     text += fmt::format("Basis: {}.\n", codec.basis().description());
-    for (const Need need : request.needs)
-        if (need == Need::irradiance)
-            text += fmt::format("Irradiance: {}; valid: {}; largest error: {}.\n", codec.evaluator().name(),
-                                accuracy.range, accuracy.error);
+    const auto state = [&](std::string_view what, const std::string& name, const Accuracy& accuracy) {
+        text += fmt::format("{}: {}; valid: {}; largest error: {}.\n", what, name, accuracy.range, accuracy.error);
+    };
+    for (const Need need : request.needs) {
+        if (need == Need::irradiance) state("Irradiance", codec.evaluator().name(), codec.evaluator().accuracy());
+        if (need != Need::specular) continue;
+        if (const auto evaluator = specular_of(codec, request))
+            state("Specular", (*evaluator)->name(), (*evaluator)->accuracy());
+    }
     if (request.storage) text += fmt::format("Storage: {}.\n", request.storage->description);
     text +=
         frame_of(codec, request) == Frame::tangent
             ? "Directions are unit vectors in the tangent frame, see to_tangent(), and point away from the surface. "
               "Without a\nnormal map the normal is (0, 0, 1).\n"
             : "Directions are unit vectors in the scene's frame (right-handed), and point away from the surface.\n";
-    text += "Irradiance is not divided by pi: a Lambertian surface reflects albedo * E / pi.\n";
+    const auto has = [&](Need need) { return std::count(request.needs.begin(), request.needs.end(), need) > 0; };
+    if (has(Need::irradiance))
+        text += "Irradiance is not divided by pi: a Lambertian surface reflects albedo * E / pi.\n";
+    if (has(Need::specular))
+        text +=
+            "specular() needs the texture of lobelia shader --table, sampled at ggx_coordinates() with linear "
+            "filtering, "
+            "clamped.\nIncluded are masking, shadowing and the cosine of light.\n";
     return text;
 }
 
+/// Breaks lines of more than 120 columns.
 std::string as_comment(const std::string& text) {
+    constexpr std::size_t k_columns = 117;
     std::string comment;
     for (std::size_t begin = 0; begin < text.size();) {
-        const std::size_t end = std::min(text.find('\n', begin), text.size());
+        std::size_t end = std::min(text.find('\n', begin), text.size());
+        if (end - begin > k_columns) end = std::min(end, text.rfind(' ', begin + k_columns));
         comment += "//";
         if (end > begin) comment += " " + text.substr(begin, end - begin);
         comment += "\n";
@@ -107,6 +137,10 @@ std::string as_comment(const std::string& text) {
 }
 
 }  // namespace
+
+std::span<const NeedInfo> needs() { return k_needs; }
+
+const NeedInfo& info(Need need) { return k_needs[static_cast<std::size_t>(need)]; }
 
 Result<std::string> shader_text(const Codec& codec, const ShaderRequest& request) {
     Functions functions;
@@ -135,7 +169,7 @@ Result<std::string> shader_text(const Codec& codec, const ShaderRequest& request
             functions.add(probe_functions());
             continue;
         }
-        const auto code = code_of(codec, need);
+        const auto code = code_of(codec, request, need);
         if (!code) return code.error();
         functions.add(code->functions);
         last += function_text(need, *code, codec.evaluator().negative()) + "\n";

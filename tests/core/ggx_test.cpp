@@ -155,7 +155,7 @@ TEST(Ggx, TableIsWithinItsStatedErrorsAtTheEdges) {
         EXPECT_NEAR(read.fresnel, exact.fresnel, 0.02);
         EXPECT_LT(length(read.axis - exact.axis), 0.12 * std::sqrt(static_cast<double>(exact.spread)));
         EXPECT_NEAR(read.spread, exact.spread, 0.5 * static_cast<double>(exact.spread));
-        for (std::size_t l = 0; l <= ggx::k_zonal_degree; ++l) EXPECT_NEAR(read.zonal[l], exact.zonal[l], 0.012);
+        for (std::size_t l = 0; l <= ggx::k_zonal_degree; ++l) EXPECT_NEAR(read.zonal[l], exact.zonal[l], 0.014);
     }
 }
 

@@ -10,6 +10,7 @@
 #include "lobelia/codec.h"
 #include "lobelia/environment.h"
 #include "lobelia/sky.h"
+#include "lobelia/specular.h"
 #include "lobelia/storage.h"
 #include "shader_runner.h"
 #include "support.h"
@@ -83,6 +84,54 @@ struct Runners {
 };
 constexpr std::array k_columns = {"msl", "glsl", "hlsl"};
 
+/// Points that a viewer sees from above, from below and along the normal, of surfaces from smooth to rough.
+struct SpecularInput {
+    Directions normals, views;
+    std::vector<float> alphas;
+    Rgb f0{0.04f, 0.5f, 1};
+
+    SpecularInput(Domain domain, std::size_t count)
+        : normals(test::random_directions(domain, count, 9)),
+          views(test::random_directions(Domain::sphere, count, 10)) {
+        std::mt19937 generator(11);
+        std::uniform_real_distribution<float> uniform(0, 1);
+        for (std::size_t i = 0; i < count; ++i) {
+            const Vec3 n = direction_at(normals, i), v = direction_at(views, i);
+            // One in eight stays where it is, below the surface or above; one in 64 is along the normal.
+            const Vec3 view = i % 64 == 0 ? n : i % 8 == 0 ? v : dot(n, v) < 0 ? v - n * (2 * dot(n, v)) : v;
+            set_entry(views, i, normalize(view));
+            const float root = uniform(generator);
+            alphas.push_back(0.05f + 0.95f * root * root);
+        }
+    }
+    [[nodiscard]] SpecularPoints points() const { return {normals, views, alphas}; }
+    /// The floats of the points, and the table.
+    [[nodiscard]] std::vector<float> floats() const {
+        std::vector<float> all;
+        for (std::size_t i = 0; i < alphas.size(); ++i) {
+            const Vec3 n = direction_at(normals, i), v = direction_at(views, i);
+            all.insert(all.end(), {n.x, n.y, n.z, v.x, v.y, v.z, alphas[i], f0.r, f0.g, f0.b});
+        }
+        const SpecularTable table = ggx_table();
+        all.insert(all.end(), table.texels.begin(), table.texels.end());
+        return all;
+    }
+};
+
+/// What the library evaluates, as below.
+std::vector<float> expected_of(const test::ShaderCase& shader, const std::vector<std::vector<Rgb>>& texels,
+                               const SpecularInput& input) {
+    const auto evaluator = make_specular(shader.part, make_basis(shader.basis).value()).value();
+    std::vector<float> expected;
+    Colours values(input.alphas.size());
+    for (const auto& c : texels) {
+        specular(*evaluator, c, input.points(), input.f0, values);
+        for (std::size_t j = 0; j < values.size(); ++j)
+            for (std::size_t k = 0; k < 3; ++k) expected.push_back(values.channel(k)[j]);
+    }
+    return expected;
+}
+
 /// What the library evaluates: texel by texel, direction by direction.
 std::vector<float> expected_of(const test::ShaderCase& shader, const Codec& codec,
                                const std::vector<std::vector<Rgb>>& texels, DirectionView directions) {
@@ -136,8 +185,16 @@ TEST(ShaderParity, FunctionsGiveWhatTheLibraryGives) {
         if (std::exchange(basis, shader.basis) != shader.basis)
             texels = texels_of(*codec.encoder(), large ? 4 : k_texels);
         const Directions directions = test::random_directions(codec.basis().domain(), large ? 256 : k_normals, 9);
-        const auto columns =
-            runners.columns(shader, input_of(texels, directions), expected_of(shader, codec, texels, directions));
+        auto input = input_of(texels, directions);
+        std::vector<float> expected;
+        if (test::reflects(shader)) {
+            const SpecularInput points(codec.basis().domain(), k_normals);
+            input.xyz = points.floats();
+            expected = expected_of(shader, texels, points);
+        } else {
+            expected = expected_of(shader, codec, texels, directions);
+        }
+        const auto columns = runners.columns(shader, input, expected);
         const std::string name = basis + " " + shader.part + " " + shader.function;
         std::vector<double> worst;
         for (std::size_t k = 0; k < columns.size(); ++k) {
@@ -152,7 +209,7 @@ TEST(ShaderParity, FunctionsGiveWhatTheLibraryGives) {
 TEST(ShaderParity, AWrongSignIsFoundInEveryWay) {
     Runners runners;
     for (const test::ShaderCase& shader : test::shader_cases()) {
-        if (test::unpacks(shader) || std::string_view(shader.basis) != "sh1") continue;
+        if (test::unpacks(shader) || test::reflects(shader) || std::string_view(shader.basis) != "sh1") continue;
         const Codec codec = test::codec_of(shader);
         auto texels = texels_of(*codec.encoder(), 4);
         const Directions directions = test::random_directions(codec.basis().domain(), 64, 9);

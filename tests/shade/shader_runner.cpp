@@ -37,6 +37,51 @@ std::string compute_head(Language language) {
         k_group);
 }
 
+/// A function that samples the table of reflection lobes, which lies behind the points.
+std::string table_sampling(const std::string& vec) {
+    const SpecularTable table = ggx_table();
+    return fmt::format(
+        "{0}4 table_texel(int layer, int x, int y) {{\n"
+        "    int at = {1} * direction_count + 4 * ((layer * {3} + y) * {2} + x);\n"
+        "    return {0}4(input_xyz[at], input_xyz[at + 1], input_xyz[at + 2], input_xyz[at + 3]);\n}}\n"
+        "{0}4 table_sample(int layer, {0}2 uv) {{\n"
+        "    float u = clamp(uv.x * {2}.0 - 0.5, 0.0, {2}.0 - 1.0), v = clamp(uv.y * {3}.0 - 0.5, 0.0, {3}.0 - 1.0);\n"
+        "    int x = min(int(u), {2} - 2), y = min(int(v), {3} - 2);\n"
+        "    {0}4 a = table_texel(layer, x, y), b = table_texel(layer, x, y + 1);\n"
+        "    a += (table_texel(layer, x + 1, y) - a) * (u - float(x));\n"
+        "    b += (table_texel(layer, x + 1, y + 1) - b) * (u - float(x));\n"
+        "    return a + (b - a) * (v - float(y));\n}}\n",
+        vec, k_point_floats, table.width, table.height);
+}
+
+/// A function that evaluates coefficients `y` at point `x`.
+std::string reflection(const ShaderCase& shader, const std::string& text, const std::string& vec) {
+    std::string members;
+    for (const auto& member : table_members(text))
+        members += fmt::format("    texels.{} = table_sample({}, ggx_coordinates({}, alpha));\n", member,
+                               layer_of(member), is_of_normal(member) ? "1.0" : "dot(n, v)");
+    return table_sampling(vec) +
+           fmt::format(
+               "void run_case(int x, int y) {{\n"
+               "    Coefficients light;\n"
+               "    for (int i = 0; i < {1}; i++) {{\n"
+               "        int at = 3 * ({1} * y + i);\n"
+               "        light.c[i] = {0}3(input_values[at], input_values[at + 1], input_values[at + 2]);\n"
+               "    }}\n"
+               "    int p = {2} * x;\n"
+               "    {0}3 n = {0}3(input_xyz[p], input_xyz[p + 1], input_xyz[p + 2]);\n"
+               "    {0}3 v = {0}3(input_xyz[p + 3], input_xyz[p + 4], input_xyz[p + 5]);\n"
+               "    float alpha = input_xyz[p + 6];\n"
+               "    {0}3 f0 = {0}3(input_xyz[p + 7], input_xyz[p + 8], input_xyz[p + 9]);\n"
+               "    GgxTexels texels;\n{3}"
+               "    {0}3 value = specular(light, texels, n, v, alpha, f0);\n"
+               "    int out_at = 3 * (direction_count * y + x);\n"
+               "    results[out_at] = value.x;\n    results[out_at + 1] = value.y;\n    results[out_at + 2] = "
+               "value.z;\n"
+               "}}\n",
+               vec, codec_of(shader).basis().size(), k_point_floats, members);
+}
+
 /// A function that evaluates coefficients `y` at direction `x`.
 std::string evaluation(const ShaderCase& shader, std::string_view vec3) {
     return fmt::format(
@@ -79,13 +124,15 @@ std::string unpacking(const ShaderCase& shader, std::string_view vec4) {
 
 /// A whole compute shader: its constant 0 chooses one of the cases with a text, constant 1 is the number of directions.
 std::string compute_shader(std::span<const ShaderCase> shaders, std::span<const std::string> texts, Language language) {
-    const std::string vec3(info(language).vec3), vec4 = vec3.substr(0, vec3.size() - 1) + "4";
+    const std::string vec3(info(language).vec3), vec = vec3.substr(0, vec3.size() - 1), vec4 = vec + "4";
     std::string text = compute_head(language), choices;
     for (std::size_t i = 0; i < shaders.size(); ++i) {
         if (texts[i].empty()) continue;
         const std::string suffix = fmt::format("_case_{}", i);
-        text += with_own_names(
-            texts[i] + (unpacks(shaders[i]) ? unpacking(shaders[i], vec4) : evaluation(shaders[i], vec3)), suffix);
+        text += with_own_names(texts[i] + (unpacks(shaders[i])    ? unpacking(shaders[i], vec4)
+                                           : reflects(shaders[i]) ? reflection(shaders[i], texts[i], vec)
+                                                                  : evaluation(shaders[i], vec3)),
+                               suffix);
         choices += fmt::format("    if (chosen_case == {}) run_case{}(x, y);\n", i, suffix);
     }
     if (language == Language::hlsl)
@@ -130,7 +177,7 @@ std::vector<float> run_msl_as_cpp(const ShaderCase& shader, const ShaderInput& i
             if (unpacks(shader))
                 shader.call(nullptr, texel, out);
             else
-                shader.call(texel, input.xyz.data() + 3 * j, out);
+                shader.call(texel, input.xyz.data() + (reflects(shader) ? k_point_floats : 3) * j, out);
         }
     return results;
 }

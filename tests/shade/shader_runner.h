@@ -15,8 +15,8 @@ struct ShaderInput {
     std::size_t texels = 0;
     std::vector<float> values;   ///< coefficients of each texel, or the members of its Texel
     std::size_t directions = 1;  ///< 1 for unpack()
-    std::vector<float> xyz;      ///< of each direction
-    std::size_t results = 3;     ///< at each texel and direction
+    std::vector<float> xyz;   ///< of each direction; for specular() the k_point_floats of each point, then ggx_table()
+    std::size_t results = 3;  ///< at each texel and direction
     [[nodiscard]] std::size_t stride() const { return values.size() / texels; }
 };
 

@@ -21,7 +21,7 @@ class Writer {
         if (!text) return;
         static const std::regex number(R"((\b[0-9]+\.[0-9]+(e[-+]?[0-9]+)?))");
         source_ += fmt::format("namespace case_{} {{\n{}\n{}}}\n\n", count_, std::regex_replace(*text, number, "$1f"),
-                               unpacks(shader) ? unpacking(shader) : evaluation(shader));
+                               unpacks(shader) ? unpacking(shader) : evaluation(shader, *text));
         table_ += fmt::format("    {{\"{}\", \"{}\", \"{}\", case_{}::call}},\n", shader.basis, shader.part,
                               shader.function, count_++);
     }
@@ -35,14 +35,27 @@ class Writer {
     }
 
   private:
-    static std::string evaluation(const test::ShaderCase& shader) {
+    static std::string evaluation(const test::ShaderCase& shader, const std::string& text) {
+        std::string before, arguments = "float3(d[0], d[1], d[2])";
+        if (test::reflects(shader)) {
+            before =
+                "    GgxTexels texels;\n"
+                "    const float3 n(d[0], d[1], d[2]), v(d[3], d[4], d[5]), f0(d[7], d[8], d[9]);\n";
+            for (const auto& member : test::table_members(text))
+                before += fmt::format(
+                    "    const float2 at_{0} = ggx_coordinates({1}, d[6]);\n"
+                    "    const auto value_{0} = sampled_table({2}, at_{0}.x, at_{0}.y);\n"
+                    "    texels.{0} = float4(value_{0}[0], value_{0}[1], value_{0}[2], value_{0}[3]);\n",
+                    member, test::is_of_normal(member) ? "1.0f" : "dot(n, v)", test::layer_of(member));
+            arguments = "texels, n, v, d[6], f0";
+        }
         return fmt::format(
             "void call(const float* c, const float* d, float* out) {{\n"
             "    Coefficients light;\n"
-            "    for (int i = 0; i < {}; ++i) light.c[i] = float3(c[3 * i], c[3 * i + 1], c[3 * i + 2]);\n"
-            "    const float3 value = {}(light, float3(d[0], d[1], d[2]));\n"
+            "    for (int i = 0; i < {}; ++i) light.c[i] = float3(c[3 * i], c[3 * i + 1], c[3 * i + 2]);\n{}"
+            "    const float3 value = {}(light, {});\n"
             "    for (int k = 0; k < 3; ++k) out[k] = value[k];\n}}\n",
-            codec_of(shader).basis().size(), shader.function);
+            codec_of(shader).basis().size(), before, shader.function, arguments);
     }
 
     /// d holds the values of a Texel in their order.
@@ -77,6 +90,8 @@ int main(int count, char** arguments) {
         const auto evaluators = basis->evaluator_names();
         for (const auto& evaluator : evaluators) writer.add({name.c_str(), evaluator.c_str(), "irradiance", nullptr});
         writer.add({name.c_str(), evaluators.front().c_str(), "radiance", nullptr});
+        for (const auto& specular : basis->specular_names())
+            writer.add({name.c_str(), specular.c_str(), "specular", nullptr});
         for (const Storage& storage : storages())
             if (!test::encoder_for(name, storage).empty())
                 writer.add({name.c_str(), storage.name.data(), "unpack", nullptr});
@@ -87,6 +102,8 @@ int main(int count, char** arguments) {
     for (const char* evaluator : {"inner-product", "punctual", "hill", "tokuyoshi", "odd-exact-2", "exact"})
         writer.add({mixed, evaluator, "irradiance", nullptr});
     writer.add({mixed, "exact", "radiance", nullptr});
+    for (const auto& specular : make_basis(mixed).value()->specular_names())
+        writer.add({mixed, specular.c_str(), "specular", nullptr});
     std::ofstream file(arguments[1]);
     file << writer.result();
     return file.flush() ? 0 : 1;

@@ -13,6 +13,10 @@ class SampledSpecular final : public SpecularEvaluator {
   public:
     SampledSpecular(std::shared_ptr<const Basis> basis, std::size_t count) : basis_(std::move(basis)), count_(count) {}
     [[nodiscard]] std::string name() const override { return "sampled"; }
+    [[nodiscard]] Result<ShaderCode> reflected_code() const override {
+        return Error{
+            "specular evaluator sampled has no shader code: it evaluates the basis in many directions for each point"};
+    }
     [[nodiscard]] Accuracy accuracy() const override {
         return {"any alpha and view", "that of " + std::to_string(count_) + " directions", Reading::of_radiance, 0};
     }
@@ -62,6 +66,18 @@ void specular(const SpecularEvaluator& evaluator, std::span<const Rgb> c, const 
         set_entry(out, i, Rgb{L.r * (f0.r * scale + bias), L.g * (f0.g * scale + bias), L.b * (f0.b * scale + bias)});
     }
 }
+
+Result<ShaderCode> specular_code(const SpecularEvaluator& evaluator) {
+    auto code = evaluator.reflected_code();
+    if (!code) return code;
+    code->statements +=
+        "    // Schlick's Fresnel factor by the split sum (Karis 2013): how much of a constant light it reflects.\n"
+        "    float fresnel = texels.view_0.y / texels.view_0.x;\n";
+    code->result += " * mix(vec3(fresnel), vec3(1.0), f0)";
+    return code;
+}
+
+SpecularTable ggx_table() { return {ggx::k_table_side, ggx::k_table_side, ggx::k_table_layers, ggx::table_texels()}; }
 
 std::shared_ptr<const SpecularEvaluator> make_sampled_specular(std::shared_ptr<const Basis> basis, std::size_t count) {
     check_range("directions", count, 1, k_most_directions);

@@ -46,6 +46,8 @@ View make_view(Vec3 normal, Vec3 to_viewer, float alpha) {
     View view = make_view(cosine, alpha);
     view.z = normal;
     Vec3 along = to_viewer - normal * cosine;
+    // Near the normal the length has all digits, 1 - cosine^2 few.
+    if (cosine > k_least_cosine) view.sine = std::min(length(along), 1.0f);
     // A view along the normal has no side of its own: take any.
     if (dot(along, along) < 1e-12f)
         along = std::abs(normal.z) < 0.9f ? cross(normal, {0, 0, 1}) : cross(normal, {1, 0, 0});

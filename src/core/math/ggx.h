@@ -63,8 +63,14 @@ struct Lobe {
 };
 /// Returns the lobe from a table in alpha and n.v, computed at the first call (0.1 s). Largest errors for alpha and n.v
 /// from 0.1 on: albedo 0.0015, fresnel 0.001, axis 0.006 of the root of the spread, spread 1 %, zonal 0.004. Below:
-/// 0.015, 0.02, 0.12, 50 %, 0.012. Tested.
+/// 0.015, 0.02, 0.12, 50 %, 0.014. Tested.
 [[nodiscard]] Lobe lobe(const View& view);
+
+/// Texels along either side of the table, and its layers of four channels: albedo, fresnel, the sine of the axis's
+/// angle from the mirror direction, root of the spread / alpha; zonal 2 to 5; zonal 6 to 8 and 0.
+inline constexpr std::size_t k_table_side = 32, k_table_layers = 3;
+/// Returns the table, channels of texels of rows of layers. Columns go by the view, rows by alpha.
+[[nodiscard]] std::vector<float> table_texels();
 /// The same by `count` rays, without the table.
 [[nodiscard]] Lobe lobe_by_rays(const View& view, std::size_t count);
 

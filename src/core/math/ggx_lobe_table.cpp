@@ -5,30 +5,29 @@ namespace lobelia::ggx {
 namespace {
 
 /// Entries along either side, and the rays that each is made from.
-constexpr std::size_t k_lobe_side = 32, k_table_rays = 1024;
-/// Converts radians to the unit interval.
-constexpr auto k_elevation_scale = static_cast<float>(2 / k_pi);
-
+constexpr std::size_t k_lobe_side = k_table_side, k_table_rays = 1024;
 /// Table coordinates from 0 to 1: roots of alpha and of the viewer's elevation above the surface, for the lobe changes
-/// fastest where the surface is smooth and the view grazing; in the elevation, for there nothing bends at the normal.
+/// fastest where the surface is smooth and the view grazing. As the elevation counts 1 - sqrt(1 - cosine), which is
+/// linear in the angle at the normal, where nothing bends, and needs no arc sine, here or in a shader.
 struct Coordinates {
     float alpha, elevation;
 };
 Coordinates coordinates(const View& view) {
-    return {std::sqrt(view.alpha), std::sqrt(std::asin(view.cosine) * k_elevation_scale)};
+    return {std::sqrt(view.alpha), std::sqrt(view.cosine / (1 + std::sqrt(1 - view.cosine)))};
 }
 constexpr float k_lobe_last = static_cast<float>(k_lobe_side - 1);
 View table_view(std::size_t i, std::size_t j) {
-    const auto a = static_cast<float>(i) / k_lobe_last, e = static_cast<float>(j) / k_lobe_last;
-    return make_view(std::sin(e * e / k_elevation_scale), a * a);
+    const auto a = static_cast<float>(i) / k_lobe_last, root = static_cast<float>(j) / k_lobe_last;
+    const float elevation = root * root;
+    return make_view(elevation * (2 - elevation), a * a);
 }
 
-/// A lobe in numbers that bend little from entry to entry: the axis as its angle from the mirror direction, and the
-/// spread as a root relative to alpha, which both tend to 0 with it.
+/// A lobe in numbers that bend little from entry to entry: the axis as the sine of its angle from the mirror direction,
+/// less than a right angle, and the spread as a root relative to alpha, which both tend to 0 with it.
 using LobeEntry = std::array<float, 4 + k_zonal_degree - 1>;
 
 LobeEntry to_entry(const Lobe& lobe, const View& view) {
-    const float tilt = std::atan2(-lobe.axis.x, lobe.axis.z) - std::acos(view.cosine);
+    const float tilt = -(lobe.axis.x * view.cosine + lobe.axis.z * view.sine);
     LobeEntry entry{lobe.albedo, lobe.fresnel, tilt, std::sqrt(lobe.spread) / view.alpha};
     for (std::size_t l = 2; l <= k_zonal_degree; ++l) entry[2 + l] = lobe.zonal[l];
     return entry;
@@ -39,7 +38,7 @@ Lobe from_entry(const LobeEntry& entry, const View& view) {
     lobe.albedo = entry[0];
     lobe.fresnel = entry[1];
     // The mirror direction (-sine, 0, cosine), turned by the tilt.
-    const float s = std::sin(entry[2]), c = std::cos(entry[2]);
+    const float s = entry[2], c = std::sqrt(1 - s * s);
     lobe.axis = {-(view.sine * c + view.cosine * s), 0, view.cosine * c - view.sine * s};
     const float root = entry[3] * view.alpha;
     lobe.spread = root * root;
@@ -57,6 +56,11 @@ std::vector<LobeEntry> make_lobe_table() {
             table[i * k_lobe_side + j] = to_entry(lobe_by_rays(view, k_table_rays), view);
         }
     return table;
+}
+
+const std::vector<LobeEntry>& lobe_table() {
+    static const std::vector<LobeEntry> k_table = make_lobe_table();
+    return k_table;
 }
 
 /// The cell that a coordinate lies in, and where in it.
@@ -111,7 +115,7 @@ Lobe lobe_by_rays(const View& view, std::size_t count) {
 }
 
 Lobe lobe(const View& view) {
-    static const std::vector<LobeEntry> table = make_lobe_table();
+    const std::vector<LobeEntry>& table = lobe_table();
     const auto [alpha, elevation] = coordinates(view);
     const TablePlace a(alpha), b(elevation);
     const LobeEntry* corner = &table[a.index * k_lobe_side + b.index];
@@ -122,6 +126,15 @@ Lobe lobe(const View& view) {
         entry[k] = low + (high - low) * a.along;
     }
     return from_entry(entry, view);
+}
+
+std::vector<float> table_texels() {
+    const std::vector<LobeEntry>& table = lobe_table();
+    std::vector<float> texels;
+    for (std::size_t layer = 0; layer < k_table_layers; ++layer)
+        for (const LobeEntry& entry : table)
+            for (std::size_t k = 4 * layer; k < 4 * layer + 4; ++k) texels.push_back(k < entry.size() ? entry[k] : 0);
+    return texels;
 }
 
 }  // namespace lobelia::ggx

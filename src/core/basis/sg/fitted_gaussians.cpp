@@ -8,6 +8,7 @@
 
 #include "core/basis/sg/lobe_fit.h"
 #include "core/basis/sg/sg_irradiance.h"
+#include "core/basis/sg/sg_specular_shader.h"
 #include "core/basis/sg/spherical_gaussians.h"
 
 namespace lobelia {
@@ -42,6 +43,9 @@ class FittedSpecular final : public SpecularEvaluator {
     FittedSpecular(std::string_view name, std::size_t coefficients) : name_(name), coefficients_(coefficients) {}
     [[nodiscard]] std::string name() const override { return name_; }
     [[nodiscard]] Accuracy accuracy() const override { return make_sg_specular(name_, {})->accuracy(); }
+    [[nodiscard]] Result<ShaderCode> reflected_code() const override {
+        return sg_shader::fitted_reflected(*sg_specular_from_name(name_), coefficients_ / 2);
+    }
     void reflected(std::span<const Rgb> c, const SpecularPoints& points, MutableColourView out) const override {
         check_specular(coefficients_, c, points, out);
         const auto [lobes, amplitudes] = FittedGaussians::lobes(c);

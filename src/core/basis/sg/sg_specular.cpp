@@ -5,6 +5,7 @@
 #include <array>
 
 #include "core/basis/sg/sg_specular_lanes.h"
+#include "core/basis/sg/sg_specular_shader.h"
 #include "core/math/number_text.h"
 
 namespace lobelia {
@@ -12,13 +13,14 @@ namespace lobelia {
 namespace {
 
 SgLight make_light(const gaussian::Lobe& lobe) {
-    const float s = lobe.sharpness;
-    SgLight light{lobe.axis, s, static_cast<float>(gaussian::integral(static_cast<double>(s))), 0, 1, 0};
-    // L(s) = coth s - 1 / s; near 0 its series.
-    light.mean = s < 0.1f ? s / 3 - s * s * s / 45 : 1 / std::tanh(s) - 1 / s;
-    light.spread = s < 1 ? 1 - light.mean : 1 / s - 2 / std::expm1(2 * s);
-    light.power = std::pow(s, k_gloss_steepness);
-    return light;
+    const double s = lobe.sharpness, mean = gaussian::mean_cosine(s);
+    const double spread = s < 1 ? 1 - mean : 1 / s - 2 / std::expm1(2 * s);
+    return {lobe.axis,
+            lobe.sharpness,
+            static_cast<float>(gaussian::integral(s)),
+            static_cast<float>(mean),
+            static_cast<float>(spread),
+            std::pow(lobe.sharpness, k_gloss_steepness)};
 }
 
 void set_view(const ggx::View& v, float* column) {
@@ -65,6 +67,9 @@ class SgSpecularSum final : public SpecularEvaluator {
     [[nodiscard]] Accuracy accuracy() const override {
         return {"alpha 0.1 to 0.8, n.v 0.25 to 1, sharpness 2 to 64",
                 table_number(info_.error) + " of a lobe's reflected light, RMS over its axes", Reading::of_radiance, 0};
+    }
+    [[nodiscard]] Result<ShaderCode> reflected_code() const override {
+        return sg_shader::reflected(info_.kind, lights_);
     }
     void reflected(std::span<const Rgb> c, const SpecularPoints& points, MutableColourView out) const override {
         check_specular(lights_.size(), c, points, out);

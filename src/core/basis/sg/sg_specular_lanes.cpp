@@ -102,10 +102,11 @@ struct Punctual {
 struct SgWarp {
     static HWY_INLINE V eval(const Seen& s, const Lanes3& p, const SgLight& light) {
         const V warped = inverse(hn::Mul(hn::Add(s.alpha2, s.alpha2), s.cosine)), lambda = value(light.sharpness);
-        const V squared = apart(s.mirror(), p), sum = hn::Add(warped, lambda), product = hn::Mul(warped, lambda);
-        // |w m + l p|^2 = (w + l)^2 - w l |m - p|^2.
-        const V u = hn::Sqrt(hn::Max(hn::NegMulAdd(product, squared, square(sum)), value(0)));
-        const V exponent = hn::Div(hn::Mul(product, squared), hn::Add(u, sum));
+        const Lanes3 mirror = s.mirror(), opposite{hn::Neg(mirror.x), hn::Neg(mirror.y), hn::Neg(mirror.z)};
+        const V sum = hn::Add(warped, lambda), product = hn::Mul(warped, lambda);
+        // |w m + l p|^2 = (w - l)^2 + w l |m + p|^2, which does not cancel.
+        const V u = hn::Sqrt(hn::MulAdd(product, apart(opposite, p), square(hn::Sub(warped, lambda))));
+        const V exponent = hn::Div(hn::Mul(product, apart(mirror, p)), hn::Add(u, sum));
         return hn::Mul(s.row(k_row_peak), hn::Mul(exponential(hn::Neg(exponent)), integral(u)));
     }
 };
@@ -230,8 +231,7 @@ HWY_INLINE void reflect_all(const float* rows, std::span<const SgLight> lights, 
         const Seen seen(rows, j);
         V r = hn::Zero(d), g = r, b = r;
         for (std::size_t i = 0; i < lights.size(); ++i) {
-            // Ambient light is reflected by the albedo.
-            const bool ambient = lights[i].sharpness < 1e-8f;
+            const bool ambient = lights[i].sharpness < k_ambient_sharpness;
             const V e = ambient ? seen.row(k_row_albedo) : Formula::eval(seen, seen.local(lights[i].axis), lights[i]);
             r = hn::MulAdd(value(c[i].r), e, r);
             g = hn::MulAdd(value(c[i].g), e, g);

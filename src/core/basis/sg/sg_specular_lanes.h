@@ -13,6 +13,9 @@ namespace lobelia {
 inline constexpr float k_gloss_middle = 2.22f, k_gloss_grazing = 0.37f, k_gloss_steepness = 1.775f;
 inline constexpr float k_gloss_soft = 1.22f, k_gloss_half = 0.707f;
 
+/// Lobes below this sharpness are ambient light, which the albedo reflects.
+inline constexpr float k_ambient_sharpness = 1e-8f;
+
 /// A lobe, and its parameters for the formulae.
 struct SgLight {
     Vec3 axis;

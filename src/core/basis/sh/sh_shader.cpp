@@ -1,10 +1,12 @@
 // Shader code of spherical harmonics: Y_lm is a polynomial of z times the real or the imaginary part of (x + iy)^m.
 #include "core/basis/sh/sh_shader.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>
 
+#include "core/math/ggx_shader.h"
 #include "core/math/shader_pattern.h"
 #include "core/math/shader_text.h"
 #include "lobelia/math.h"
@@ -110,14 +112,18 @@ class Writer {
     std::size_t most_ = 1;
 };
 
+/// Whether a band's sum is the beginning of its variable.
+enum class Sum { begins, goes_on };
+
 /// The terms of one band.
-std::string band(Writer& writer, std::size_t l, double factor, const std::string& name) {
+std::string band(Writer& writer, std::size_t l, double factor, const std::string& name, Sum sums) {
     std::string sum;
     for (std::size_t i = l * l; i < (l + 1) * (l + 1); ++i) {
         const std::size_t middle = l * l + l, m = i < middle ? middle - i : i - middle;
         const std::string weight = writer.harmonic(l, m, i >= middle, factor);
-        sum += l == 0 ? filled("    vec3 $0 = $1 * $2;\n", {name, coefficient(i), weight})
-                      : filled("    $0 += $1 * ($2);\n", {name, coefficient(i), weight});
+        const bool begins = i == l * l && sums == Sum::begins;
+        sum += filled(l == 0 ? "    $0$1 $2 $3 * $4;\n" : "    $0$1 $2 $3 * ($4);\n",
+                      {begins ? "vec3 " : "", name, begins ? "=" : "+=", coefficient(i), weight});
     }
     const std::string named = writer.named();
     return named + sum;
@@ -131,11 +137,85 @@ ShaderCode sum_of_bands(std::span<const double> factors, const std::string& dire
     Writer writer(direction, highest);
     std::string sum;
     for (std::size_t l = 0; l <= highest; ++l)
-        if (factors[l] != 0) sum += band(writer, l, factors[l], name);
+        if (factors[l] != 0) sum += band(writer, l, factors[l], name, l == 0 ? Sum::begins : Sum::goes_on);
     return {{}, writer.declarations() + sum, name};
 }
 
+/// The reflection of a view, a sum of bands at the direction w times the zonal means that `layer_<i>` members hold.
+ShaderCode reflected_bands(std::size_t degree, const std::string& layer) {
+    Writer writer("w", degree);
+    std::string sum = band(writer, 0, 1, "sum", Sum::begins);
+    if (degree >= 1) sum += filled("    float root = texels.$00.w * view.alpha;\n", {layer});
+    for (std::size_t l = 1; l <= degree; ++l) {
+        const std::string name = "band_" + std::to_string(l);
+        const std::string mean =
+            l == 1 ? "(1.0 - root * root)"
+                   : filled("texels.$0$1.$2", {layer, std::to_string((l + 2) / 4), std::string(1, "zwxy"[l % 4])});
+        sum += band(writer, l, 1, name, Sum::begins) + filled("    sum += $0 * $1;\n", {mean, name});
+    }
+    return {{}, writer.declarations() + sum + "    sum = max(texels.view_0.x * sum, vec3(0.0));\n", "sum"};
+}
+
+/// The layers of the table that hold the zonal means up to a degree.
+std::size_t zonal_layers(std::size_t degree) { return degree < 1 ? 0 : degree < 2 ? 1 : degree < 6 ? 2 : 3; }
+
 }  // namespace
+
+ShaderCode convolved(std::size_t degree) {
+    ShaderCode code = reflected_bands(degree, "view_");
+    code.functions = ggx_shader::view_functions({std::max<std::size_t>(1, zonal_layers(degree))});
+    code.functions.push_back(ggx_shader::axis());
+    code.statements =
+        "    GgxView view = ggx_view(n, v, alpha);\n"
+        "    // Each band in the mean direction of the reflection, times the mean of its Legendre polynomial about "
+        "it.\n"
+        "    vec3 w = ggx_axis(view, texels.view_0.z);\n" +
+        code.statements;
+    return code;
+}
+
+ShaderCode prefiltered(std::size_t degree) {
+    ShaderCode code = reflected_bands(degree, "normal_");
+    code.functions = ggx_shader::view_functions({1, zonal_layers(degree)});
+    code.functions.push_back(ggx_shader::mirror());
+    code.statements =
+        "    GgxView view = ggx_view(n, v, alpha);\n"
+        "    // Each band in the mirror direction, times the mean of its Legendre polynomial for a view along the "
+        "normal.\n"
+        "    vec3 w = ggx_mirror(view);\n" +
+        code.statements;
+    return code;
+}
+
+ShaderCode dominant() {
+    ShaderCode code{ggx_shader::view_functions({1, 0, ggx_shader::Uses::Across::yes}),
+                    filled(R"(    GgxView view = ggx_view(n, v, alpha);
+    // The integrals of L and of w L, the latter by components of w, and the mean direction of the luminance.
+    vec3 total = $0 * light.c[0];
+    vec3 x = $1 * light.c[3];
+    vec3 y = $1 * light.c[1];
+    vec3 z = $1 * light.c[2];
+    vec3 luminance = vec3(0.2126, 0.7152, 0.0722);
+    vec3 mean = vec3(dot(x, luminance), dot(y, luminance), dot(z, luminance));
+    float whole = dot(total, luminance);
+    float size = length(mean);
+    // The lamp in that direction, and the ambient rest; without a direction all is ambient.
+    float directed = choose(size > 0.0 && whole > 0.0, 1.0, 0.0);
+    vec3 axis = mean * (directed / max(size, 1.0e-30));
+    vec3 lamp = clamp(x * axis.x + y * axis.y + z * axis.z, vec3(0.0), max(total, vec3(0.0)));
+    vec3 sum = (total - lamp) * ($2 * texels.view_0.x);
+    // The lamp's width is unknown but for how far light points at all: make the surface rougher instead.
+    float pointing = min(size / max(whole, 1.0e-30), 1.0);
+    float rough = min(view.alpha / max(pointing, 1.0e-4), 1.0);
+    float masking = ggx_masking(rough * rough, view.cosine * view.cosine);
+    sum += lamp * ggx_reflection(view, rough * rough, masking, ggx_local(view, axis));
+)",
+                           {literal(std::sqrt(4 * k_pi)), literal(std::sqrt(4 * k_pi / 3)), literal(1 / (4 * k_pi))}),
+                    "sum"};
+    for (const auto& f : {ggx_shader::local(), ggx_shader::masking(), ggx_shader::reflection()})
+        code.functions.push_back(f);
+    return code;
+}
 
 ShaderCode radiance(std::size_t degree) {
     ShaderCode code = sum_of_bands(std::vector<double>(degree + 1, 1.0), "w", "sum");

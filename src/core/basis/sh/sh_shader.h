@@ -14,6 +14,13 @@ namespace lobelia::sh_shader {
 /// the window that the factors contain, empty for none.
 [[nodiscard]] ShaderCode irradiance(std::span<const double> factors, const std::string& window);
 
+/// Reflected light of the harmonics of degrees 0 to `degree`: each band times its mean Legendre polynomial, in the mean
+/// direction of the reflection, or for a view along the normal, in the mirror direction.
+[[nodiscard]] ShaderCode convolved(std::size_t degree);
+[[nodiscard]] ShaderCode prefiltered(std::size_t degree);
+/// Reflected light of degree 1 as ambient light and a lamp.
+[[nodiscard]] ShaderCode dominant();
+
 /// Irradiance of degree 1 by the model of Geomerics, and with ZH3's guess of degree 2.
 [[nodiscard]] ShaderCode geomerics();
 [[nodiscard]] ShaderCode hallucinated();

@@ -1,6 +1,7 @@
 // Glossy reflection of spherical harmonics.
 #include "core/basis/sh/sh_specular.h"
 
+#include "core/basis/sh/sh_shader.h"
 #include "core/math/ggx.h"
 #include "core/math/harmonics.h"
 
@@ -25,6 +26,10 @@ class ZonalSpecular final : public SpecularEvaluator {
     [[nodiscard]] Accuracy accuracy() const override {
         return {k_range, kind_ == Kind::convolution ? k_convolution_error : k_prefiltered_error, Reading::of_radiance,
                 0.005};
+    }
+    [[nodiscard]] Result<ShaderCode> reflected_code() const override {
+        const std::size_t degree = harmonics_.degree();
+        return kind_ == Kind::convolution ? sh_shader::convolved(degree) : sh_shader::prefiltered(degree);
     }
     void reflected(std::span<const Rgb> c, const SpecularPoints& points, MutableColourView out) const override {
         check_specular(harmonics_.size(), c, points, out);
@@ -82,6 +87,7 @@ class DominantSpecular final : public SpecularEvaluator {
     [[nodiscard]] Accuracy accuracy() const override {
         return {"any alpha and view", "exact for constant light and for one lamp", Reading::of_its_own, 0.005};
     }
+    [[nodiscard]] Result<ShaderCode> reflected_code() const override { return sh_shader::dominant(); }
     void reflected(std::span<const Rgb> c, const SpecularPoints& points, MutableColourView out) const override {
         check_specular(coefficients_, c, points, out);
         const Light light = split(c);
