@@ -319,11 +319,12 @@ TEST(BakeFolder, MorePagesThanFilesMayBeOpen) {
     ::getrlimit(RLIMIT_NOFILE, &old);
     const rlimit few{80, old.rlim_max};
     ::setrlimit(RLIMIT_NOFILE, &few);
-    const auto status = write_bake(folder.path(), bake, {.textures = {.storages = {{"bc6h-signed"}}, .arrays = Switch::off}});
+    const auto status =
+        write_bake(folder.path(), bake, {.textures = {.storages = {{"bc6h-signed"}}, .arrays = Switch::off}});
     ::setrlimit(RLIMIT_NOFILE, &old);
     ASSERT_TRUE(status) << status.error().message;
-    // Of each page its file, four textures and validity; bake.json, two files of probes and a texture of their validity,
-    // four of shader code.
+    // Of each page its file, four textures and validity; bake.json, two files of probes and a texture of their
+    // validity, four of shader code.
     EXPECT_EQ(folder.entries(), (1u + 4 + 1) * 22 + 4 + 4);  // more than may be open
     EXPECT_TRUE(read_bake(folder.path()));
     // If the last file does not fit, nothing is left behind, including temporary files.

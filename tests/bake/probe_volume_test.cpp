@@ -294,7 +294,7 @@ TEST(ProbeVolume, OctahedralMapsGoOnBeyondTheirEdges) {
     for (int y = 0; y < k_side; ++y)
         for (int x = 0; x < k_side; ++x) {
             const double u = 2 * (x + 0.5) / k_side - 1, v = 2 * (y + 0.5) / k_side - 1;
-            // The inverse of octahedral_place.
+            // The inverse of OctahedralMap::place.
             double z = 1 - std::abs(u) - std::abs(v), a = u, b = v;
             if (z < 0) {
                 a = (1 - std::abs(v)) * (u < 0 ? -1 : 1);

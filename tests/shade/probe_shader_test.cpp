@@ -3,7 +3,7 @@
 
 #include <random>
 
-#include "bake/probes/probe_visibility.h"
+#include "core/basis/octahedral.h"
 #include "glslang.h"
 #include "lobelia/probe_volume.h"
 #include "shade/shader.h"
@@ -47,7 +47,7 @@ TEST(ProbeShader, WeightsAreTheLibrarys) {
         for (const float x :
              {at.trilinear, to.x, to.y, to.z, n.x, n.y, n.z, from.x, from.y, from.z, mean, square, at.validity})
             values.push_back(x);
-        const auto place = octahedral_place(normalize(from));
+        const auto place = OctahedralMap::place(normalize(from));
         expected.insert(expected.end(), {probe_weight(at, n), 0.5f + 0.5f * place[0], 0.5f + 0.5f * place[1]});
     }
     ASSERT_EQ(values.size(), k_inputs * k_cases);

@@ -61,25 +61,6 @@ std::vector<std::array<std::uint32_t, 2>> edges_of(const ProbeSet& probes) {
 
 }  // namespace
 
-std::array<float, 2> octahedral_place(Vec3 w) {
-    const float scale = 1 / (std::abs(w.x) + std::abs(w.y) + std::abs(w.z));
-    const float u = w.x * scale, v = w.y * scale;
-    if (w.z >= 0) return {u, v};
-    return {(1 - std::abs(v)) * (u < 0 ? -1.0f : 1.0f), (1 - std::abs(u)) * (v < 0 ? -1.0f : 1.0f)};
-}
-
-std::size_t octahedral_texel(int x, int y, int side) {
-    if (x < 0 || x >= side) {
-        x = std::clamp(x, 0, side - 1);
-        y = side - 1 - y;
-    }
-    if (y < 0 || y >= side) {
-        y = std::clamp(y, 0, side - 1);
-        x = side - 1 - x;
-    }
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(side) + static_cast<std::size_t>(x);
-}
-
 void measure_visibility(ProbeSet& probes, const PathTracer& tracer, std::size_t side, float reach, StopFlag stop) {
     const Directions directions = uniform_directions(Domain::sphere, Sequence::hammersley, k_rays, 0);
     const std::vector<TexelWeights> texels = weights_of(directions, side);

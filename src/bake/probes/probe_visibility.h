@@ -7,13 +7,6 @@
 
 namespace lobelia {
 
-/// Returns the place of a unit direction on the unfolded octahedron, in [-1, 1]^2 (Praun and Hoppe 2003): the middle is
-/// +z, the corners are -z.
-[[nodiscard]] std::array<float, 2> octahedral_place(Vec3 direction);
-/// Returns the index of texel (x, y) of a map of side x side; one step beyond an edge it is where the octahedron goes
-/// on.
-[[nodiscard]] std::size_t octahedral_texel(int x, int y, int side);
-
 /// Fills the probes' maps: the mean and the mean square of the distances [m] to surfaces around each texel's direction
 /// (weight max(0, cosine)^50, Majercik et al. 2019), none longer than `reach`. Back faces count as nearer, by a fifth
 /// of their distance, so that probes inside walls see little.

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "bake/probes/probe_visibility.h"
+#include "core/basis/octahedral.h"
 
 namespace lobelia {
 namespace {
@@ -62,14 +62,15 @@ float probe_weight(const ProbeAt& at, Vec3 normal) {
 }
 
 std::array<float, 2> probe_moments(std::span<const std::array<float, 2>> map, std::size_t side, Vec3 direction) {
-    const auto [u, v] = octahedral_place(direction);
-    const auto n = static_cast<int>(side);
-    const float x = 0.5f * (u + 1) * static_cast<float>(n) - 0.5f, y = 0.5f * (v + 1) * static_cast<float>(n) - 0.5f;
+    const auto [u, v] = OctahedralMap::place(direction);
+    const OctahedralMap octahedral{side};
+    const auto n = static_cast<float>(side);
+    const float x = 0.5f * (u + 1) * n - 0.5f, y = 0.5f * (v + 1) * n - 0.5f;
     const float x0 = std::floor(x), y0 = std::floor(y), fx = x - x0, fy = y - y0;
     std::array<float, 2> sum{};
     for (int k = 0; k < 4; ++k) {
         const float weight = ((k & 1) != 0 ? fx : 1 - fx) * ((k & 2) != 0 ? fy : 1 - fy);
-        const auto& texel = map[octahedral_texel(static_cast<int>(x0) + (k & 1), static_cast<int>(y0) + (k >> 1), n)];
+        const auto& texel = map[octahedral.index_at(static_cast<int>(x0) + (k & 1), static_cast<int>(y0) + (k >> 1))];
         sum[0] += weight * texel[0];
         sum[1] += weight * texel[1];
     }

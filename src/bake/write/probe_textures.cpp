@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "bake/probes/probe_visibility.h"
+#include "core/basis/octahedral.h"
 #include "core/storage/layout_text.h"
 #include "io/texture/container.h"
 #include "lobelia/codec.h"
@@ -86,7 +86,7 @@ Status add_visibility(FilesTogether& files, const ProbeSet& probes, const Textur
     for (std::size_t i = 0; i < width * height; ++i) {
         const std::size_t x = i % width, y = i / width, probe = x / tile + nx * (y / tile);
         const std::size_t texel =
-            octahedral_texel(static_cast<int>(x % tile) - 1, static_cast<int>(y % tile) - 1, static_cast<int>(side));
+            OctahedralMap{side}.index_at(static_cast<int>(x % tile) - 1, static_cast<int>(y % tile) - 1);
         for (std::size_t k = 0; k < 2; ++k) moments[k][i] = probes.visibility[probe * side * side + texel][k];
     }
     const std::array<const float*, 2> channels = {moments[0].data(), moments[1].data()};

@@ -134,20 +134,34 @@ Vec3 OctahedralMap::direction(double u, double v) {
     return {static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])};
 }
 
-std::size_t OctahedralMap::index(Vec3 direction) const {
+std::array<float, 2> OctahedralMap::place(Vec3 direction) {
     const float scale = 1 / (std::abs(direction.x) + std::abs(direction.y) + std::abs(direction.z));
-    float u = direction.x * scale, v = direction.y * scale;
-    if (direction.z < 0) {
-        const float folded = (1 - std::abs(v)) * (u < 0 ? -1.0f : 1.0f);
-        v = (1 - std::abs(u)) * (v < 0 ? -1.0f : 1.0f);
-        u = folded;
+    const float u = direction.x * scale, v = direction.y * scale;
+    if (direction.z >= 0) return {u, v};
+    return {(1 - std::abs(v)) * (u < 0 ? -1.0f : 1.0f), (1 - std::abs(u)) * (v < 0 ? -1.0f : 1.0f)};
+}
+
+std::size_t OctahedralMap::index_at(int x, int y) const {
+    const auto side = static_cast<int>(resolution);
+    if (x < 0 || x >= side) {
+        x = std::clamp(x, 0, side - 1);
+        y = side - 1 - y;
     }
-    const auto place = [&](float x) {
+    if (y < 0 || y >= side) {
+        y = std::clamp(y, 0, side - 1);
+        x = side - 1 - x;
+    }
+    return static_cast<std::size_t>(y) * resolution + static_cast<std::size_t>(x);
+}
+
+std::size_t OctahedralMap::index(Vec3 direction) const {
+    const auto [u, v] = place(direction);
+    const auto cell_of = [&](float x) {
         // A NaN becomes 0.
         const float cell = std::max(0.0f, (x + 1) / 2 * static_cast<float>(resolution));
         return static_cast<std::size_t>(std::min(cell, static_cast<float>(resolution - 1)));
     };
-    return place(v) * resolution + place(u);
+    return cell_of(v) * resolution + cell_of(u);
 }
 
 OctahedralMap::Cell OctahedralMap::cell(std::size_t index) const {

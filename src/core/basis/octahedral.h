@@ -16,6 +16,10 @@ struct OctahedralMap {
     [[nodiscard]] std::size_t size() const { return resolution * resolution; }
     /// Direction of the point (u, v) of [-1, 1]^2. The middle is +z, the corners are -z.
     [[nodiscard]] static Vec3 direction(double u, double v);
+    /// The place (u, v) of a unit direction, the inverse of direction().
+    [[nodiscard]] static std::array<float, 2> place(Vec3 direction);
+    /// Returns the index of cell (x, y), x to the right; one step beyond an edge it is where the octahedron goes on.
+    [[nodiscard]] std::size_t index_at(int x, int y) const;
     /// Index of the cell that holds a unit direction: v's row, u's column.
     [[nodiscard]] std::size_t index(Vec3 direction) const;
     /// Integrals over a cell [sr]: exact, since it is two spherical triangles, but for the second moment, which is by
