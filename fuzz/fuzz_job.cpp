@@ -18,6 +18,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const auto again = read_job(folder.path() / "again");
     require(static_cast<bool>(again));
     require(again->bake.codec == job->bake.codec && again->bake.samples == job->bake.samples);
-    require(again->scene.path == job->scene.path && again->storages == job->storages);
+    require(again->scene.path == job->scene.path && again->textures.storages == job->textures.storages);
     return 0;
 }
