@@ -26,6 +26,15 @@ struct StretchedView {
     }
 };
 
+/// The reflection of light, with the sum of the directions to viewer and light.
+double reflection(const View& view, Vec3 light, Vec3 sum) {
+    if (light.z <= 0) return 0;
+    const Vec3 v = view.direction();
+    const auto alpha = static_cast<double>(view.alpha);
+    return distribution(alpha, normalize(sum)) /
+           (4 * static_cast<double>(v.z) * (1 + smith(alpha, v) + smith(alpha, light)));
+}
+
 Vec3 unit_vector(double x, double y, double z) {
     const double scale = 1 / std::sqrt(x * x + y * y + z * z);
     return {static_cast<float>(x * scale), static_cast<float>(y * scale), static_cast<float>(z * scale)};
@@ -38,6 +47,7 @@ View make_view(float cosine, float alpha) {
     view.alpha = std::clamp(alpha, k_least_alpha, 1.0f);
     view.cosine = std::clamp(cosine, k_least_cosine, 1.0f);
     view.sine = std::sqrt(1 - view.cosine * view.cosine);
+    view.viewer = view.direction();
     return view;
 }
 
@@ -53,6 +63,7 @@ View make_view(Vec3 normal, Vec3 to_viewer, float alpha) {
         along = std::abs(normal.z) < 0.9f ? cross(normal, {0, 0, 1}) : cross(normal, {1, 0, 0});
     view.x = normalize(along);
     view.y = cross(view.z, view.x);
+    view.viewer = cosine > k_least_cosine ? to_viewer : view.to_world(view.direction());
     return view;
 }
 
@@ -64,11 +75,11 @@ double distribution(double alpha, Vec3 h) {
 
 double smith(double alpha, Vec3 v) { return lambda_of(alpha, sine_squared(v), static_cast<double>(v.z)); }
 
-double reflection(const View& view, Vec3 light) {
-    if (light.z <= 0) return 0;
-    const Vec3 v = view.direction(), h = normalize(v + light);
-    const auto alpha = static_cast<double>(view.alpha);
-    return distribution(alpha, h) / (4 * static_cast<double>(v.z) * (1 + smith(alpha, v) + smith(alpha, light)));
+double reflection(const View& view, Vec3 light) { return reflection(view, light, view.direction() + light); }
+
+double reflection_from(const View& view, Vec3 w) {
+    const Vec3 sum = view.to_local(view.viewer + w);
+    return reflection(view, sum - view.direction(), sum);
 }
 
 Vec3 VisibleNormal::sample(const View& view, Point2 p) {

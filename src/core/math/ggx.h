@@ -16,6 +16,7 @@ inline constexpr float k_least_alpha = 5e-3f, k_least_cosine = 5e-3f;
 /// to the viewer is (sine, 0, cosine).
 struct View {
     Vec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
+    Vec3 viewer{0, 0, 1};        ///< the direction to the viewer, in the frame that x, y and z are given in
     float sine = 0, cosine = 1;  ///< of the angle between normal and viewer
     float alpha = 1;
     [[nodiscard]] Vec3 to_local(Vec3 w) const { return {dot(x, w), dot(y, w), dot(z, w)}; }
@@ -33,6 +34,10 @@ struct View {
 [[nodiscard]] double smith(double alpha, Vec3 v);
 /// D G / (4 n.v) [1/sr]: the reflectance distribution times n.l, without Fresnel; 0 for light below the surface.
 [[nodiscard]] double reflection(const View& view, Vec3 light);
+
+/// The same for light from `w` in the frame that view.x, y and z are given in. Has more digits where the viewer and
+/// light are nearly opposite: their sum is rounded before it is turned.
+[[nodiscard]] double reflection_from(const View& view, Vec3 w);
 
 /// Normals as the viewer sees them, h [local frame], with density D (v.h) / (n.v (1 + Lambda(v))) [1/sr].
 struct VisibleNormal {

@@ -37,7 +37,7 @@ ShaderFunction texels(const Uses& uses) {
     return {"GgxTexels", text + "};\n"};
 }
 
-ShaderFunction view_struct(bool across) {
+ShaderFunction view_struct(Frame frame) {
     return {
         "GgxView",
         filled(
@@ -46,15 +46,21 @@ ShaderFunction view_struct(bool across) {
 struct GgxView {
     vec3 x;
 $0    vec3 z;
-    float sine;
+$1    float sine;
     float cosine;
     float alpha;
 };
 )",
-            {across ? "    vec3 y;\n" : ""})};
+            {frame == Frame::plane ? "" : "    vec3 y;\n", frame == Frame::viewer ? "    vec3 viewer;\n" : ""})};
 }
 
-ShaderFunction view_function(bool across) {
+ShaderFunction view_function(Frame frame) {
+    const std::string viewer = filled(R"(    view.viewer = v;
+    if (cosine <= $0) {
+        view.viewer = view.x * view.sine + n * view.cosine;
+    }
+)",
+                                      {literal(ggx::k_least_cosine)});
     const double most_sine = std::sqrt(1 - static_cast<double>(ggx::k_least_cosine) * ggx::k_least_cosine);
     return {"ggx_view",
             filled(R"(/// Returns the view from the unit direction v. Views below the surface count as grazing ones.
@@ -72,18 +78,18 @@ GgxView ggx_view(vec3 n, vec3 v, float alpha) {
     }
     view.x = normalize(along);
 $3    view.z = n;
-    return view;
+$4    return view;
 }
 )",
                    {literal(ggx::k_least_cosine), literal(most_sine), literal(ggx::k_least_alpha),
-                    across ? "    view.y = cross(n, view.x);\n" : ""})};
+                    frame == Frame::plane ? "" : "    view.y = cross(n, view.x);\n",
+                    frame == Frame::viewer ? viewer : ""})};
 }
 
 }  // namespace
 
 std::vector<ShaderFunction> view_functions(const Uses& uses) {
-    const bool across = uses.across == Uses::Across::yes;
-    return {coordinates(), texels(uses), view_struct(across), view_function(across)};
+    return {coordinates(), texels(uses), view_struct(uses.frame), view_function(uses.frame)};
 }
 
 const ShaderFunction& mirror() {
@@ -107,13 +113,17 @@ vec3 ggx_axis(GgxView view, float tilt) {
     return k_axis;
 }
 
-const ShaderFunction& local() {
-    static const ShaderFunction k_local = {"ggx_local", R"(/// Returns a direction in the frame of the view.
-vec3 ggx_local(GgxView view, vec3 w) {
-    return vec3(dot(view.x, w), dot(view.y, w), dot(view.z, w));
+const ShaderFunction& sum() {
+    static const ShaderFunction k_sum = {
+        "ggx_sum",
+        R"(/// Returns the sum of the unit directions to the viewer and w, in the frame of the view. Summed up before it is turned,
+/// it has its digits where the two are nearly opposite.
+vec3 ggx_sum(GgxView view, vec3 w) {
+    vec3 h = view.viewer + w;
+    return vec3(dot(view.x, h), dot(view.y, h), dot(view.z, h));
 }
 )"};
-    return k_local;
+    return k_sum;
 }
 
 const ShaderFunction& masking() {
@@ -128,17 +138,17 @@ float ggx_masking(float alpha2, float cosine2) {
 
 const ShaderFunction& reflection() {
     static const ShaderFunction k_reflection = {
-        "ggx_reflection",
-        filled(
-            R"(/// Returns D G / (4 n.v) [1/sr] for light from p in the frame of the view; `masking` is that of the viewer.
-float ggx_reflection(GgxView view, float alpha2, float masking, vec3 p) {
-    vec3 h = vec3(p.x + view.sine, p.y, p.z + view.cosine);
+        "ggx_reflection", filled(
+                              R"(/// Returns D G / (4 n.v) [1/sr] for light from w; `masking` is that of the viewer.
+float ggx_reflection(GgxView view, float alpha2, float masking, vec3 w) {
+    vec3 h = ggx_sum(view, w);
+    float z = h.z - view.cosine;
     float stretched = dot(h, h) / (h.x * h.x + h.y * h.y + alpha2 * h.z * h.z);
-    float both = masking + ggx_masking(alpha2, clamp(p.z * p.z, 1.0e-12, 1.0));
-    return choose(p.z > 0.0, alpha2 * stretched * stretched / ($0 * view.cosine * both), 0.0);
+    float both = masking + ggx_masking(alpha2, clamp(z * z, 1.0e-12, 1.0));
+    return choose(z > 0.0, alpha2 * stretched * stretched / ($0 * view.cosine * both), 0.0);
 }
 )",
-            {literal(2 * k_pi)})};
+                              {literal(2 * k_pi)})};
     return k_reflection;
 }
 

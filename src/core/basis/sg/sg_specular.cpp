@@ -32,6 +32,9 @@ void set_view(const ggx::View& v, float* column) {
         put(k_row_frame + 3 * i + 1, frame[i].y);
         put(k_row_frame + 3 * i + 2, frame[i].z);
     }
+    put(k_row_viewer, v.viewer.x);
+    put(k_row_viewer + 1, v.viewer.y);
+    put(k_row_viewer + 2, v.viewer.z);
     const float alpha2 = v.alpha * v.alpha;
     const float masked = 1 + static_cast<float>(ggx::smith(static_cast<double>(v.alpha), v.direction()));
     put(k_row_sine, v.sine);
@@ -100,16 +103,21 @@ std::optional<SgSpecular> sg_specular_from_name(std::string_view name) {
 }
 
 std::vector<float> sg_specular(SgSpecular kind, const ggx::View& view, float sharpness, DirectionView axes) {
-    // Turn the view instead of the lobe: in a frame in which axis i is z, the view's axes are what z sees of them.
+    // Turn the view instead of the lobe, to a frame in which the axis is z.
     std::vector<float> rows(k_view_rows * k_block_size), values(axes.size);
     const SgLight light = make_light({{0, 0, 1}, sharpness});
     const Rgb one{1, 1, 1};
     Colours out(k_block_size);
-    for (std::size_t j = 0; j < k_block_size; ++j) set_view(view, rows.data() + j);
     for_each_part(axes, k_block_size, [&](DirectionView part, std::size_t begin) {
-        for (std::size_t i = 0; i < 3; ++i)
-            for (std::size_t j = 0; j < part.size; ++j)
-                rows[(k_row_frame + 3 * i + 2) * k_block_size + j] = part.channel(i)[j];
+        for (std::size_t j = 0; j < part.size; ++j) {
+            const ggx::View about_axis = ggx::make_view(direction_at(part, j), view.direction(), 1);
+            ggx::View turned = view;
+            turned.x = about_axis.to_local({1, 0, 0});
+            turned.y = about_axis.to_local({0, 1, 0});
+            turned.z = about_axis.to_local({0, 0, 1});
+            turned.viewer = about_axis.to_local(view.direction());
+            set_view(turned, rows.data() + j);
+        }
         reflect_lobes(kind, rows.data(), {&light, 1}, {&one, 1}, MutableColourView(out).part(0, part.size));
         std::copy_n(out.channel(0), part.size, values.data() + begin);
     });

@@ -58,18 +58,28 @@ struct Seen {
     [[nodiscard]] HWY_INLINE Lanes3 viewer() const { return {sine, value(0), cosine}; }
     [[nodiscard]] HWY_INLINE Lanes3 mirror() const { return {hn::Neg(sine), value(0), cosine}; }
     /// A direction in the views' frames.
-    [[nodiscard]] HWY_INLINE Lanes3 local(const Vec3& w) const {
+    [[nodiscard]] HWY_INLINE Lanes3 local(const Lanes3& w) const {
         const auto along = [&](std::size_t axis) HWY_ATTR {
             const std::size_t r = k_row_frame + 3 * axis;
-            return hn::MulAdd(row(r), value(w.x), hn::MulAdd(row(r + 1), value(w.y), hn::Mul(row(r + 2), value(w.z))));
+            return hn::MulAdd(row(r), w.x, hn::MulAdd(row(r + 1), w.y, hn::Mul(row(r + 2), w.z)));
         };
         return {along(0), along(1), along(2)};
     }
 };
 
-/// Half way between viewer and p; the normal where they are opposite.
-HWY_INLINE Lanes3 half_vector(const Seen& s, const Lanes3& p) {
-    const Lanes3 sum{hn::Add(s.sine, p.x), p.y, hn::Add(s.cosine, p.z)};
+/// A lobe's axis, and the sum of the directions to it and to the viewer, in the views' frames.
+struct Towards {
+    Lanes3 p, sum;
+    /// The sum is rounded before it is turned: so it has its digits where the two are nearly opposite.
+    HWY_INLINE Towards(const Seen& s, const Vec3& axis)
+        : sum(s.local({hn::Add(s.row(k_row_viewer), value(axis.x)), hn::Add(s.row(k_row_viewer + 1), value(axis.y)),
+                       hn::Add(s.row(k_row_viewer + 2), value(axis.z))})) {
+        p = {hn::Sub(sum.x, s.sine), sum.y, hn::Sub(sum.z, s.cosine)};
+    }
+};
+
+/// Half way between viewer and light; the normal where they are opposite.
+HWY_INLINE Lanes3 half_vector(const Lanes3& sum) {
     const V size = hn::Sqrt(dot(sum, sum)), scale = inverse(hn::Max(size, value(1e-6f)));
     const auto opposite = hn::Le(size, value(1e-6f));
     return {hn::Mul(sum.x, scale), hn::Mul(sum.y, scale), hn::IfThenElse(opposite, value(1), hn::Mul(sum.z, scale))};
@@ -88,25 +98,25 @@ HWY_INLINE V smith(V alpha2, V z2) {
 }
 
 struct Punctual {
-    static HWY_INLINE V eval(const Seen& s, const Lanes3& p, const SgLight& light) {
-        const V z2 = hn::Min(hn::Max(square(p.z), value(1e-12f)), value(1));
+    static HWY_INLINE V eval(const Seen& s, const Towards& to, const SgLight& light) {
+        const V z2 = hn::Min(hn::Max(square(to.p.z), value(1e-12f)), value(1));
         const V hidden = hn::Add(s.row(k_row_masked), smith(s.alpha2, z2));
-        const V kernel =
-            hn::Div(distribution(s.alpha2, s.alpha2, half_vector(s, p)), hn::Mul(hn::Mul(value(4), s.cosine), hidden));
-        return hn::IfThenElseZero(hn::Gt(p.z, value(0)), hn::Mul(value(light.integral), kernel));
+        const V kernel = hn::Div(distribution(s.alpha2, s.alpha2, half_vector(to.sum)),
+                                 hn::Mul(hn::Mul(value(4), s.cosine), hidden));
+        return hn::IfThenElseZero(hn::Gt(to.p.z, value(0)), hn::Mul(value(light.integral), kernel));
     }
 };
 
 /// The distribution as a Gaussian of sharpness 2 / alpha^2 about the normal, moved to light with its peak kept; all
 /// else as in the mirror direction. Then a lobe times a lobe.
 struct SgWarp {
-    static HWY_INLINE V eval(const Seen& s, const Lanes3& p, const SgLight& light) {
+    static HWY_INLINE V eval(const Seen& s, const Towards& to, const SgLight& light) {
         const V warped = inverse(hn::Mul(hn::Add(s.alpha2, s.alpha2), s.cosine)), lambda = value(light.sharpness);
         const Lanes3 mirror = s.mirror(), opposite{hn::Neg(mirror.x), hn::Neg(mirror.y), hn::Neg(mirror.z)};
         const V sum = hn::Add(warped, lambda), product = hn::Mul(warped, lambda);
         // |w m + l p|^2 = (w - l)^2 + w l |m + p|^2, which does not cancel.
-        const V u = hn::Sqrt(hn::MulAdd(product, apart(opposite, p), square(hn::Sub(warped, lambda))));
-        const V exponent = hn::Div(hn::Mul(product, apart(mirror, p)), hn::Add(u, sum));
+        const V u = hn::Sqrt(hn::MulAdd(product, apart(opposite, to.p), square(hn::Sub(warped, lambda))));
+        const V exponent = hn::Div(hn::Mul(product, apart(mirror, to.p)), hn::Add(u, sum));
         return hn::Mul(s.row(k_row_peak), hn::Mul(exponential(hn::Neg(exponent)), integral(u)));
     }
 };
@@ -114,13 +124,13 @@ struct SgWarp {
 /// The same with two widths, across and along the plane of incidence: exp(-a x^2 - b y^2) about the mirror direction,
 /// convolved with the light as exp(-nu |x|^2), nu = sharpness / 2.
 struct AsgWarp {
-    static HWY_INLINE V eval(const Seen& s, const Lanes3& p, const SgLight& light) {
+    static HWY_INLINE V eval(const Seen& s, const Towards& to, const SgLight& light) {
         const V along = inverse(hn::Mul(value(4), s.alpha2)), across = hn::Div(along, square(s.cosine));
-        const V nu = value(light.sharpness / 2), facing = hn::Max(dot(s.mirror(), p), value(0));
-        const V y = hn::MulAdd(p.x, s.cosine, hn::Mul(p.z, s.sine));
+        const V nu = value(light.sharpness / 2), facing = hn::Max(dot(s.mirror(), to.p), value(0));
+        const V y = hn::MulAdd(to.p.x, s.cosine, hn::Mul(to.p.z, s.sine));
         const V sum_along = hn::Add(nu, along), sum_across = hn::Add(nu, across);
         const V exponent = hn::Mul(
-            nu, hn::MulAdd(hn::Div(across, sum_across), square(p.y), hn::Mul(hn::Div(along, sum_along), square(y))));
+            nu, hn::MulAdd(hn::Div(across, sum_across), square(to.p.y), hn::Mul(hn::Div(along, sum_along), square(y))));
         const V width = hn::Mul(hn::Sqrt(sum_along), hn::Sqrt(sum_across));
         const V peak = hn::Mul(s.row(k_row_peak), value(k_gloss_pi));
         return hn::Mul(hn::Div(peak, width), hn::Mul(facing, exponential(hn::Neg(exponent))));
@@ -174,33 +184,33 @@ HWY_INLINE ProductLobe product_with_mirror(const Seen& s, const Lanes3& p, const
 }
 
 struct Tokuyoshi2024 {
-    static HWY_INLINE V eval(const Seen& s, const Lanes3& p, const SgLight& light) {
-        const ProductLobe both = product_with_mirror(s, p, light);
+    static HWY_INLINE V eval(const Seen& s, const Towards& to, const SgLight& light) {
+        const ProductLobe both = product_with_mirror(s, to.p, light);
         const V share = share_above(both.cosine, both.sharpness);
-        return hn::Mul(hn::Mul(value(light.integral), share), widened(s, half_vector(s, p), light, s.cosine));
+        return hn::Mul(hn::Mul(value(light.integral), share), widened(s, half_vector(to.sum), light, s.cosine));
     }
 };
 
 /// The reflection as the Gaussian of its albedo and its mean vector, convolved with the light so that mean cosines
 /// multiply. For light of degree 1 in the direction, this is exact.
 struct Moments {
-    static HWY_INLINE V eval(const Seen& s, const Lanes3& p, const SgLight& light) {
+    static HWY_INLINE V eval(const Seen& s, const Towards& to, const SgLight& light) {
         const Lanes3 axis{s.row(k_row_axis_x), value(0), s.row(k_row_axis_z)};
         const V sharpness = sharpness_of(hn::MulAdd(value(light.mean), s.row(k_row_spread), value(light.spread)));
-        const V decay = exponential(hn::Mul(hn::Mul(value(-0.5f), sharpness), apart(axis, p)));
+        const V decay = exponential(hn::Mul(hn::Mul(value(-0.5f), sharpness), apart(axis, to.p)));
         return hn::Mul(hn::Mul(s.row(k_row_albedo), value(light.integral)), hn::Div(decay, integral(sharpness)));
     }
 };
 
 /// The widened GGX, seen and masked as the real one is; for a punctual light, this is exact.
 struct Masked {
-    static HWY_INLINE V eval(const Seen& s, const Lanes3& p, const SgLight& light) {
-        const Lanes3 h = half_vector(s, p);
+    static HWY_INLINE V eval(const Seen& s, const Towards& to, const SgLight& light) {
+        const Lanes3 h = half_vector(to.sum);
         const V move = hn::Sub(dot(s.viewer(), h), s.cosine);
         const V cosine = hn::Max(hn::MulAdd(value(k_gloss_half), move, s.cosine), value(0.05f));
 
         // Mask light at the product's axis, lifted softly above the horizon.
-        const ProductLobe both = product_with_mirror(s, p, light);
+        const ProductLobe both = product_with_mirror(s, to.p, light);
         const V softness = hn::Div(value(k_gloss_soft), hn::Add(both.sharpness, value(1)));
         const V lifted =
             hn::Mul(value(0.5f), hn::Add(both.cosine, hn::Sqrt(hn::MulAdd(both.cosine, both.cosine, softness))));
@@ -216,9 +226,9 @@ struct Masked {
 };
 
 struct TwoEnds {
-    static HWY_INLINE V eval(const Seen& s, const Lanes3& p, const SgLight& light) {
+    static HWY_INLINE V eval(const Seen& s, const Towards& to, const SgLight& light) {
         const V t = hn::Min(hn::Mul(value(light.power), s.row(k_row_middle)), value(1e9f));
-        const V both = hn::MulAdd(t, Masked::eval(s, p, light), Moments::eval(s, p, light));
+        const V both = hn::MulAdd(t, Masked::eval(s, to, light), Moments::eval(s, to, light));
         return hn::Div(both, hn::Add(value(1), t));
     }
 };
@@ -232,7 +242,8 @@ HWY_INLINE void reflect_all(const float* rows, std::span<const SgLight> lights, 
         V r = hn::Zero(d), g = r, b = r;
         for (std::size_t i = 0; i < lights.size(); ++i) {
             const bool ambient = lights[i].sharpness < k_ambient_sharpness;
-            const V e = ambient ? seen.row(k_row_albedo) : Formula::eval(seen, seen.local(lights[i].axis), lights[i]);
+            const V e =
+                ambient ? seen.row(k_row_albedo) : Formula::eval(seen, Towards(seen, lights[i].axis), lights[i]);
             r = hn::MulAdd(value(c[i].r), e, r);
             g = hn::MulAdd(value(c[i].g), e, g);
             b = hn::MulAdd(value(c[i].b), e, b);

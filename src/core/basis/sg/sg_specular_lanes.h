@@ -27,7 +27,8 @@ struct SgLight {
 /// Rows of a block of views; row r of view j is at r * k_block_size + j. The frame first, x, y and z by components.
 enum SgViewRow : std::size_t {
     k_row_frame = 0,
-    k_row_sine = 9,
+    k_row_viewer = 9,  ///< the direction to the viewer, three rows
+    k_row_sine = 12,
     k_row_cosine,
     k_row_alpha2,
     k_row_peak,    ///< the reflection in the mirror direction

@@ -81,8 +81,8 @@ Reflection punctual() {
     return {"sg_punctual(view, $1)",
             "SgPunctual",
             "punctual_lobe(view, $0, $1)",
-            {1, 0, ggx_shader::Uses::Across::yes},
-            {ggx_shader::local(),
+            {1, 0, ggx_shader::Frame::viewer},
+            {ggx_shader::sum(),
              ggx_shader::masking(),
              ggx_shader::reflection(),
              {"SgPunctual", R"(/// The surface, and the integral of a lobe.
@@ -102,7 +102,7 @@ struct SgPunctual {
 )"},
              {"punctual_lobe", R"(/// Returns the reflected light of a lobe, all of it from its axis.
 float punctual_lobe(GgxView view, SgPunctual s, vec3 axis) {
-    return s.integral * ggx_reflection(view, s.alpha2, s.masking, ggx_local(view, axis));
+    return s.integral * ggx_reflection(view, s.alpha2, s.masking, axis);
 }
 )"}}};
 }
@@ -154,7 +154,7 @@ Reflection asg_warp() {
         "asg_warp(view, $0)",
         "AsgWarp",
         "warp_lobe(view, $0, $1)",
-        {1, 0, ggx_shader::Uses::Across::yes},
+        {1, 0, ggx_shader::Frame::across},
         {ggx_shader::mirror(),
          ggx_shader::masking(),
          {"AsgWarp",
@@ -197,8 +197,8 @@ Reflection tokuyoshi_2024() {
         "sg_widened(view, $0, $1)",
         "SgWidened",
         "widened_lobe(view, $0, $1)",
-        {1, 0, ggx_shader::Uses::Across::yes},
-        {ggx_shader::local(),
+        {1, 0, ggx_shader::Frame::viewer},
+        {ggx_shader::sum(),
          k_error,
          k_share,
          k_inverse_width,
@@ -232,12 +232,12 @@ struct SgWidened {
           R"(/// Returns the reflected light of a lobe: the widened distribution at the half vector, times the share of the light above
 /// the horizon.
 float widened_lobe(GgxView view, SgWidened s, vec3 axis) {
-    vec3 p = ggx_local(view, axis);
-    vec3 both = s.sharpness * p + s.mirror;
+    vec3 h = ggx_sum(view, axis);
+    // The axis times the sharpness of the light times the reflection.
+    vec3 both = s.sharpness * (h - vec3(view.sine, 0.0, view.cosine)) + s.mirror;
     float sharpness = length(both);
     float share = share_above(both.z / max(sharpness, 1.0e-20), sharpness);
-    // The half vector, the normal where viewer and light are opposite.
-    vec3 h = vec3(p.x + view.sine, p.y, p.z + view.cosine);
+    // The distribution at the half vector, the normal where viewer and light are opposite.
     float stretched = h.x * h.x * s.along + h.y * h.y * s.across + h.z * h.z;
     float ratio = (dot(h, h) + 1.0e-12) / (stretched + 1.0e-12);
     return s.peak * share * ratio * ratio;
@@ -291,8 +291,8 @@ Reflection masked() {
         "sg_masked(view, $0, $1)",
         "SgMasked",
         "masked_lobe(view, $0, $1)",
-        {1, 0, ggx_shader::Uses::Across::yes},
-        {ggx_shader::local(),
+        {1, 0, ggx_shader::Frame::viewer},
+        {ggx_shader::sum(),
          ggx_shader::masking(),
          k_error,
          k_share,
@@ -325,15 +325,15 @@ struct SgMasked {
                               {literal(1 / (2 * k_pi))})},
          {"masked_lobe", filled(R"(/// Returns the reflected light of a lobe.
 float masked_lobe(GgxView view, SgMasked s, vec3 axis) {
-    vec3 p = ggx_local(view, axis);
-    vec3 both = s.sharpness * p + s.mirror;
+    vec3 h = ggx_sum(view, axis);
+    // The axis times the sharpness of the light times the reflection.
+    vec3 both = s.sharpness * (h - vec3(view.sine, 0.0, view.cosine)) + s.mirror;
     float sharpness = length(both);
     float cosine = both.z / max(sharpness, 1.0e-20);
     // Mask light at the product's axis, lifted softly above the horizon.
     float lifted = 0.5 * (cosine + sqrt(cosine * cosine + $0 / (sharpness + 1.0)));
     float masking = s.masking + ggx_masking(s.alpha2, clamp(lifted * lifted, 1.0e-12, 1.0));
     // The widened distribution at the half vector, whose cosine to the viewer is half its length before it is unit.
-    vec3 h = vec3(p.x + view.sine, p.y, p.z + view.cosine);
     float squared = dot(h, h) + 1.0e-12;
     float jacobian = max(mix(view.cosine, 0.5 * sqrt(squared), $1), 0.05);
     float across = inverse_width(s.alpha2, 2.0 * s.sharpness * jacobian * jacobian);

@@ -188,7 +188,7 @@ ShaderCode prefiltered(std::size_t degree) {
 }
 
 ShaderCode dominant() {
-    ShaderCode code{ggx_shader::view_functions({1, 0, ggx_shader::Uses::Across::yes}),
+    ShaderCode code{ggx_shader::view_functions({1, 0, ggx_shader::Frame::viewer}),
                     filled(R"(    GgxView view = ggx_view(n, v, alpha);
     // The integrals of L and of w L, the latter by components of w, and the mean direction of the luminance.
     vec3 total = $0 * light.c[0];
@@ -208,11 +208,11 @@ ShaderCode dominant() {
     float pointing = min(size / max(whole, 1.0e-30), 1.0);
     float rough = min(view.alpha / max(pointing, 1.0e-4), 1.0);
     float masking = ggx_masking(rough * rough, view.cosine * view.cosine);
-    sum += lamp * ggx_reflection(view, rough * rough, masking, ggx_local(view, axis));
+    sum += lamp * ggx_reflection(view, rough * rough, masking, axis);
 )",
                            {literal(std::sqrt(4 * k_pi)), literal(std::sqrt(4 * k_pi / 3)), literal(1 / (4 * k_pi))}),
                     "sum"};
-    for (const auto& f : {ggx_shader::local(), ggx_shader::masking(), ggx_shader::reflection()})
+    for (const auto& f : {ggx_shader::sum(), ggx_shader::masking(), ggx_shader::reflection()})
         code.functions.push_back(f);
     return code;
 }

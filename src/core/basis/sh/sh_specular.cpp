@@ -96,7 +96,7 @@ class DominantSpecular final : public SpecularEvaluator {
             Rgb L = light.ambient * ggx::lobe(view).albedo;
             // The lamp's width is unknown but for how far light points at all: make the surface rougher instead.
             view.alpha = std::min(1.0f, view.alpha / std::max(light.pointing, 1e-4f));
-            L = L + light.lamp * static_cast<float>(ggx::reflection(view, view.to_local(light.direction)));
+            L = L + light.lamp * static_cast<float>(ggx::reflection_from(view, light.direction));
             set_entry(out, i, L);
         }
     }
