@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "glossy_points.h"
 #include "lobelia/codec.h"
 #include "shader_cases.h"
 #include "support.h"
@@ -44,23 +45,27 @@ std::vector<EdgeTexel> edge_texels(std::size_t size) {
 }
 
 TEST(ShaderParity, EdgesOfFormulaeGiveWhatTheLibraryGives) {
-    const Directions directions = test::random_directions(Domain::sphere, 256, 3);
+    const test::GlossyPoints points(Domain::sphere, 256);
+    const std::vector<float> floats = points.floats();
+    const Directions& directions = points.normals;
     std::size_t tested = 0;
     for (const test::ShaderCase& shader : test::shader_cases()) {
-        const bool irradiance = std::string_view(shader.function) == "irradiance";
-        if (!k_harmonic_bases.contains(shader.basis) || test::unpacks(shader) || test::reflects(shader)) continue;
+        if (!k_harmonic_bases.contains(shader.basis) || test::unpacks(shader)) continue;
         const auto basis = make_basis(shader.basis).value();
         for (const EdgeTexel& texel : edge_texels(basis->size())) {
-            const Codec codec =
-                make_codec(std::string(shader.basis) + "/" + encoder_names(*basis).front() + "/" + shader.part).value();
+            const Codec codec = test::codec_of(shader);
             Colours expected(directions.size());
-            irradiance ? codec.irradiance(texel.c, directions, expected)
-                       : codec.radiance(texel.c, directions, expected);
+            if (test::reflects(shader))
+                specular(*make_specular(shader.part, basis).value(), texel.c, points.points(), points.f0, expected);
+            else if (std::string_view(shader.function) == "irradiance")
+                codec.irradiance(texel.c, directions, expected);
+            else
+                codec.radiance(texel.c, directions, expected);
             double largest = 1e-30, off = 0;
             for (std::size_t j = 0; j < directions.size(); ++j) {
                 const Vec3 d = direction_at(directions.view(), j);
                 float out[3];
-                shader.call(&texel.c[0].r, &d.x, out);
+                shader.call(&texel.c[0].r, test::reflects(shader) ? &floats[test::k_point_floats * j] : &d.x, out);
                 for (std::size_t k = 0; k < 3; ++k) {
                     const double value = expected.channel(k)[j], error = std::abs(out[k] - value);
                     largest = std::max(largest, std::abs(value));

@@ -2,11 +2,15 @@
 // compiled as C++, GLSL and HLSL on a Vulkan driver. WGSL is translated from the same source, word by word.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
 #include <random>
+#include <regex>
+#include <set>
 
+#include "glossy_points.h"
 #include "lobelia/codec.h"
 #include "lobelia/environment.h"
 #include "lobelia/sky.h"
@@ -61,6 +65,12 @@ std::vector<double> differences(std::span<const float> found, std::span<const fl
     return result;
 }
 
+double largest(const std::vector<double>& values) { return *std::max_element(values.begin(), values.end()); }
+
+std::string name_of(const test::ShaderCase& shader) {
+    return std::string(shader.basis) + " " + shader.part + " " + shader.function;
+}
+
 /// The ways to run shader code.
 struct Runners {
     Runners() {
@@ -84,80 +94,51 @@ struct Runners {
 };
 constexpr std::array k_columns = {"msl", "glsl", "hlsl"};
 
-/// Points that a viewer sees from above, from below and along the normal, of surfaces from smooth to rough.
-struct SpecularInput {
-    Directions normals, views;
-    std::vector<float> alphas;
-    Rgb f0{0.04f, 0.5f, 1};
-
-    SpecularInput(Domain domain, std::size_t count)
-        : normals(test::random_directions(domain, count, 9)),
-          views(test::random_directions(Domain::sphere, count, 10)) {
-        std::mt19937 generator(11);
-        std::uniform_real_distribution<float> uniform(0, 1);
-        for (std::size_t i = 0; i < count; ++i) {
-            const Vec3 n = direction_at(normals, i), v = direction_at(views, i);
-            // One in eight stays where it is, below the surface or above; one in 64 is along the normal.
-            const Vec3 view = i % 64 == 0 ? n : i % 8 == 0 ? v : dot(n, v) < 0 ? v - n * (2 * dot(n, v)) : v;
-            set_entry(views, i, normalize(view));
-            const float root = uniform(generator);
-            alphas.push_back(0.05f + 0.95f * root * root);
-        }
-    }
-    [[nodiscard]] SpecularPoints points() const { return {normals, views, alphas}; }
-    /// The floats of the points, and the table.
-    [[nodiscard]] std::vector<float> floats() const {
-        std::vector<float> all;
-        for (std::size_t i = 0; i < alphas.size(); ++i) {
-            const Vec3 n = direction_at(normals, i), v = direction_at(views, i);
-            all.insert(all.end(), {n.x, n.y, n.z, v.x, v.y, v.z, alphas[i], f0.r, f0.g, f0.b});
-        }
-        const SpecularTable table = ggx_table();
-        all.insert(all.end(), table.texels.begin(), table.texels.end());
-        return all;
-    }
-};
-
-/// What the library evaluates, as below.
-std::vector<float> expected_of(const test::ShaderCase& shader, const std::vector<std::vector<Rgb>>& texels,
-                               const SpecularInput& input) {
-    const auto evaluator = make_specular(shader.part, make_basis(shader.basis).value()).value();
-    std::vector<float> expected;
-    Colours values(input.alphas.size());
-    for (const auto& c : texels) {
-        specular(*evaluator, c, input.points(), input.f0, values);
-        for (std::size_t j = 0; j < values.size(); ++j)
-            for (std::size_t k = 0; k < 3; ++k) expected.push_back(values.channel(k)[j]);
-    }
-    return expected;
-}
-
-/// What the library evaluates: texel by texel, direction by direction.
-std::vector<float> expected_of(const test::ShaderCase& shader, const Codec& codec,
-                               const std::vector<std::vector<Rgb>>& texels, DirectionView directions) {
-    std::vector<float> expected;
-    Colours values(directions.size);
-    for (const auto& c : texels) {
-        if (std::string_view(shader.function) == "irradiance")
-            codec.irradiance(c, directions, values);
-        else
-            codec.radiance(c, directions, values);
-        for (std::size_t j = 0; j < directions.size; ++j)
-            for (std::size_t k = 0; k < 3; ++k) expected.push_back(values.channel(k)[j]);
-    }
-    return expected;
-}
-
-test::ShaderInput input_of(const std::vector<std::vector<Rgb>>& texels, DirectionView directions) {
+/// Values of a function at texels, and what the library gives, texel by texel, direction by direction.
+struct Evaluation {
     test::ShaderInput input;
-    input.texels = texels.size();
-    for (const auto& c : texels) input.values.insert(input.values.end(), &c[0].r, &c[0].r + 3 * c.size());
-    input.directions = directions.size;
-    for (std::size_t j = 0; j < directions.size; ++j) {
-        const Vec3 d = direction_at(directions, j);
-        input.xyz.insert(input.xyz.end(), {d.x, d.y, d.z});
+    std::vector<float> expected;
+};
+Evaluation evaluation_of(const test::ShaderCase& shader, const std::vector<std::vector<Rgb>>& texels,
+                         std::size_t count) {
+    const Codec codec = test::codec_of(shader);
+    Evaluation result;
+    result.input.texels = texels.size();
+    result.input.directions = count;
+    for (const auto& c : texels) result.input.values.insert(result.input.values.end(), &c[0].r, &c[0].r + 3 * c.size());
+
+    std::shared_ptr<const SpecularEvaluator> evaluator;
+    const test::GlossyPoints points(codec.basis().domain(), count);
+    if (test::reflects(shader)) {
+        evaluator = make_specular(shader.part, make_basis(shader.basis).value()).value();
+        result.input.xyz = points.floats();
+    } else {
+        for (std::size_t j = 0; j < count; ++j) {
+            const Vec3 d = direction_at(points.normals, j);
+            result.input.xyz.insert(result.input.xyz.end(), {d.x, d.y, d.z});
+        }
     }
-    return input;
+    Colours values(count);
+    for (const auto& c : texels) {
+        if (evaluator)
+            specular(*evaluator, c, points.points(), points.f0, values);
+        else if (std::string_view(shader.function) == "irradiance")
+            codec.irradiance(c, points.normals, values);
+        else
+            codec.radiance(c, points.normals, values);
+        for (std::size_t j = 0; j < count; ++j)
+            for (std::size_t k = 0; k < 3; ++k) result.expected.push_back(values.channel(k)[j]);
+    }
+    return result;
+}
+
+/// Axes that code computes from coefficients are off by a rounding of their last digits. A reflection at a grazing
+/// angle sees h = v + axis, of a length of a hundredth, so much less precisely.
+double allowed_for(const test::ShaderCase& shader) {
+    const auto meanings = make_basis(shader.basis).value()->meanings();
+    const bool computes_axes = std::count(meanings.begin(), meanings.end(), Meaning::shape) > 0 ||
+                               std::string_view(shader.part) == "sh-dominant";
+    return test::reflects(shader) && computes_axes ? 1.5e-4 : k_allowed;
 }
 
 void print_row(const std::string& name, std::span<const double> worst) {
@@ -184,39 +165,61 @@ TEST(ShaderParity, FunctionsGiveWhatTheLibraryGives) {
         const bool large = codec.basis().size() > 100;
         if (std::exchange(basis, shader.basis) != shader.basis)
             texels = texels_of(*codec.encoder(), large ? 4 : k_texels);
-        const Directions directions = test::random_directions(codec.basis().domain(), large ? 256 : k_normals, 9);
-        auto input = input_of(texels, directions);
-        std::vector<float> expected;
-        if (test::reflects(shader)) {
-            const SpecularInput points(codec.basis().domain(), k_normals);
-            input.xyz = points.floats();
-            expected = expected_of(shader, texels, points);
-        } else {
-            expected = expected_of(shader, codec, texels, directions);
-        }
+        const auto [input, expected] = evaluation_of(shader, texels, large ? 256 : k_normals);
         const auto columns = runners.columns(shader, input, expected);
-        const std::string name = basis + " " + shader.part + " " + shader.function;
         std::vector<double> worst;
         for (std::size_t k = 0; k < columns.size(); ++k) {
-            worst.push_back(*std::max_element(columns[k].begin(), columns[k].end()));
-            for (std::size_t i = 0; i < texels.size(); ++i)
-                EXPECT_LT(columns[k][i], k_allowed) << name << ", " << k_columns[k];
+            worst.push_back(largest(columns[k]));
+            EXPECT_LT(worst.back(), allowed_for(shader)) << name_of(shader) << ", " << k_columns[k];
         }
-        print_row(name, worst);
+        print_row(name_of(shader), worst);
     }
 }
 
 TEST(ShaderParity, AWrongSignIsFoundInEveryWay) {
     Runners runners;
     for (const test::ShaderCase& shader : test::shader_cases()) {
-        if (test::unpacks(shader) || test::reflects(shader) || std::string_view(shader.basis) != "sh1") continue;
-        const Codec codec = test::codec_of(shader);
-        auto texels = texels_of(*codec.encoder(), 4);
-        const Directions directions = test::random_directions(codec.basis().domain(), 64, 9);
-        const auto expected = expected_of(shader, codec, texels, directions);
+        if (test::unpacks(shader) || std::string_view(shader.basis) != "sh1") continue;
+        auto texels = texels_of(*test::codec_of(shader).encoder(), 4);
+        const auto expected = evaluation_of(shader, texels, 64).expected;
         for (auto& c : texels) c[1] = c[1] * -1.0f;
-        for (const auto& column : runners.columns(shader, input_of(texels, directions), expected))
+        for (const auto& column : runners.columns(shader, evaluation_of(shader, texels, 64).input, expected))
             for (const double difference : column) EXPECT_GT(difference, 1e-2) << shader.part << " " << shader.function;
+    }
+}
+
+/// Turns the sign of the first constant of at least 0.1 that is a part of the function's sum.
+std::string with_a_wrong_sign(std::string text) {
+    static const std::regex sum(R"( (e|sum) = )"), number(R"([0-9]+\.[0-9]+)");
+    std::smatch at;
+    if (!std::regex_search(text, at, sum)) return text;
+    for (std::sregex_iterator i(text.cbegin() + at.position(), text.cend(), number), end; i != end; ++i)
+        if (std::stod(i->str()) >= 0.1)
+            return text.replace(static_cast<std::size_t>(at.position() + i->position()), i->str().size(),
+                                "(-" + i->str() + ")");
+    return text;
+}
+
+TEST(ShaderParity, AWrongSignInTheTextIsFound) {
+    const std::set<std::pair<std::string_view, std::string_view>> cases = {
+        {"sh1", "convolution"},    {"h6", "exact"},           {"sg12", "hill"},    {"sg12", "two-ends"},
+        {"sh2", "sh-convolution"}, {"sh2", "sh-prefiltered"}, {"sg12", "asg-warp"}};
+    for (const shade::Language language : {shade::Language::glsl, shade::Language::hlsl}) {
+        const auto runner = test::VulkanRunner::open(language);
+        if (!runner) GTEST_SKIP() << runner.error().message;
+        for (const test::ShaderCase& shader : test::shader_cases()) {
+            if (!cases.contains({shader.basis, shader.part}) || std::string_view(shader.function) == "radiance")
+                continue;
+            const auto texels = texels_of(*test::codec_of(shader).encoder(), 8);
+            const auto [input, expected] = evaluation_of(shader, texels, 256);
+            const std::string text = test::text_of(shader, language).value();
+            const auto right = runner.value()->run(shader, text, input);
+            const auto wrong = runner.value()->run(shader, with_a_wrong_sign(text), input);
+            ASSERT_TRUE(right) << right.error().message;
+            ASSERT_TRUE(wrong) << wrong.error().message;
+            EXPECT_LT(largest(differences(*right, expected, texels.size())), k_allowed) << name_of(shader);
+            EXPECT_GT(largest(differences(*wrong, expected, texels.size())), 1e-2) << name_of(shader);
+        }
     }
 }
 
@@ -291,23 +294,6 @@ TEST(ShaderParity, UnpackingGivesWhatTheLibraryUnpacks) {
             }
     }
     for (const auto& [storage, worst] : worst_of) print_row(storage, worst);
-}
-
-TEST(ShaderParity, EveryCodecHasCodeOrAReason) {
-    for (const auto& name : basis_names())
-        for (const auto& evaluator : make_basis(name).value()->evaluator_names()) {
-            const Codec codec =
-                make_codec(name + "/" + encoder_names(*make_basis(name).value()).front() + "/" + evaluator).value();
-            for (const auto& language : shade::languages())
-                for (const shade::Need need : {shade::Need::irradiance, shade::Need::radiance}) {
-                    const auto text = shade::shader_text(codec, {language.language, {need}, nullptr, std::nullopt});
-                    if (text)
-                        EXPECT_EQ(text->find("has no shader code"), std::string::npos);
-                    else
-                        EXPECT_TRUE(evaluator == "dering" || (evaluator == "exact" && name.starts_with("sgfit")))
-                            << text.error().message;
-                }
-        }
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// A compiler accepts the shader code of every codec: glslangValidator for GLSL, ESSL and HLSL.
+// Every codec has shader code or a reason why not, and a compiler accepts it: glslangValidator for GLSL, ESSL and HLSL.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -44,7 +44,12 @@ std::vector<std::string> whole_texts(Language language) {
         for (const auto& evaluator : basis->evaluator_names()) {
             const Storage& storage = storages()[turn++ % storages().size()];
             std::string encoder = test::encoder_for(name, storage);
-            shade::ShaderRequest request{language, {shade::Need::irradiance, shade::Need::radiance}, &storage, {}};
+            shade::ShaderRequest request{language, {shade::Need::irradiance, shade::Need::radiance}, &storage, {}, {}};
+            // The specular evaluators take their turns, too.
+            if (const auto names = basis->specular_names(); !names.empty()) {
+                request.needs.push_back(shade::Need::specular);
+                request.specular = names[turn % names.size()];
+            }
             if (encoder.empty()) {
                 request.storage = nullptr;
                 encoder = encoder_names(*basis).front();
@@ -64,6 +69,55 @@ TEST(ShaderTexts, CompilersAcceptThem) {
         for (const test::ShaderCase& shader : test::shader_cases())
             if (test::unpacks(shader)) texts.push_back(test::text_of(shader, language).value());
         expect_accepted(texts, language);
+    }
+}
+
+/// Whether a request has a text that says nothing about code that is missing; with the error if not.
+testing::AssertionResult has_text(const Codec& codec, const shade::ShaderRequest& request) {
+    const auto text = shade::shader_text(codec, request);
+    if (!text) return testing::AssertionFailure() << text.error().message;
+    if (text->find("has no shader code") != std::string::npos) return testing::AssertionFailure() << *text;
+    return testing::AssertionSuccess();
+}
+
+TEST(ShaderTexts, EveryCodecHasCodeOrAReason) {
+    for (const auto& name : basis_names()) {
+        const auto basis = make_basis(name).value();
+        for (const auto& evaluator : basis->evaluator_names()) {
+            const Codec codec = make_codec(basis, encoder_names(*basis).front(), evaluator).value();
+            const bool searches = evaluator == "dering" || (evaluator == "exact" && name.starts_with("sgfit"));
+            for (const auto& language : shade::languages()) {
+                shade::ShaderRequest request;
+                request.language = language.language;
+                const auto irradiance = has_text(codec, request);
+                EXPECT_NE(searches, static_cast<bool>(irradiance)) << irradiance.message();
+                request.needs = {shade::Need::radiance};
+                EXPECT_TRUE(has_text(codec, request));
+            }
+        }
+    }
+}
+
+TEST(ShaderTexts, EverySpecularEvaluatorHasCodeOrAReason) {
+    for (const auto& name : basis_names()) {
+        const auto basis = make_basis(name).value();
+        const Codec codec = make_codec(basis, encoder_names(*basis).front(), basis->evaluator_names().front()).value();
+        shade::ShaderRequest request;
+        request.needs = {shade::Need::specular};
+        // The default is the most accurate one; where there is none, the error names bases that have one.
+        const auto text = shade::shader_text(codec, request);
+        const auto names = basis->specular_names();
+        if (names.empty())
+            EXPECT_NE(text.error().message.find("sh2"), std::string::npos) << text.error().message;
+        else
+            EXPECT_NE(text.value().find("// Specular: " + names.back() + ";"), std::string::npos) << name;
+        for (const auto& specular : specular_names(*basis)) {
+            request.specular = specular;
+            const auto found = has_text(codec, request);
+            EXPECT_EQ(specular != "sampled", static_cast<bool>(found)) << found.message();
+        }
+        request.specular = "no-such";
+        EXPECT_FALSE(has_text(codec, request));
     }
 }
 

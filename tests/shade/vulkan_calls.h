@@ -10,6 +10,7 @@ namespace lobelia::test {
 
 inline Status checked(VkResult result, const char* call) {
     if (result == VK_SUCCESS) return Done{};
+    if (result == VK_ERROR_INCOMPATIBLE_DRIVER) return Error{"no Vulkan driver: install mesa-vulkan-drivers"};
     return Error{fmt::format("{} returned {}", call, static_cast<int>(result))};
 }
 
