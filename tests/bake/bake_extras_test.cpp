@@ -63,18 +63,20 @@ TEST(ShaderFiles, StandBesideTheTexturesOfTheirStorage) {
         for (const std::string extension : {"glsl", "hlsl", "wgsl", "metal"}) {
             const std::string name = "decode." + storage + "." + extension;
             const std::string text = test::contents(folder.path() / name);
-            for (const char* function : {"to_tangent(", "unpack(", "irradiance("})
+            for (const char* function : {"to_tangent(", "unpack(", "irradiance(", "specular("})
                 EXPECT_NE(text.find(function), std::string::npos) << name << " " << function;
             EXPECT_TRUE(std::any_of(manifest->files.begin(), manifest->files.end(), [&](const FileEntry& entry) {
                 return entry.file == name;
             })) << name;
         }
+    EXPECT_TRUE(fs::exists(folder.path() / "ggx-lobe.ktx2"));
     // A codec without shader code says so, and what was there goes.
     const auto without = written(folder.path(), test::some_bake("sh1/moments/dering"), {}, {"float16"});
     ASSERT_TRUE(without) << without.error().message;
     ASSERT_FALSE(without->warnings.empty());
     EXPECT_NE(without->warnings.back().find("no shader code is written: evaluator dering"), std::string::npos);
     EXPECT_FALSE(fs::exists(folder.path() / "decode.float16.glsl"));
+    EXPECT_FALSE(fs::exists(folder.path() / "ggx-lobe.ktx2"));
 }
 
 }  // namespace

@@ -29,10 +29,23 @@ function code(language, codec, ...options) {
 const codecs = execFileSync(lobelia, ["list"], { encoding: "utf8" }).trim().split("\n");
 const parts = codecs.map((name) => name.split("/"));
 const evaluators = codecs.filter((_, i) => parts.findIndex(([basis, , evaluator]) => basis === parts[i][0] && evaluator === parts[i][2]) === i);
+/// Each basis once, and its specular evaluators.
+const bases = parts.filter(([basis], i) => parts.findIndex((other) => other[0] === basis) === i);
+const speculars = new Map();
+const axes = execFileSync(lobelia, ["list", "--axes"], { encoding: "utf8" });
+for (const line of axes.split(/^specular evaluators$/m)[1].split("\n").filter((text) => text.startsWith("  "))) {
+    const [, name, list] = line.match(/^ {2}(\S+) +(.*)$/);
+    for (const basis of list.split(", ")) speculars.set(basis, [...(speculars.get(basis) ?? []), name]);
+}
 const storages = ["float32", "float16", "ycocg", "rgb9e5", "rgbe", "rgbm", "logluv", "bc6h", "bc6h-signed", "ratio8", "ratio10", "bc6h-ratio8"];
 function texts(language) {
     const list = evaluators.map((codec) => [codec, code(language, codec, "--need", "irradiance,radiance")]);
     list.push(["sh2 of probes", code(language, "sh2/moments/convolution", "--need", "irradiance,probes")]);
+    for (const [basis, encoder, evaluator] of bases)
+        for (const specular of speculars.get(basis) ?? []) {
+            const codec = `${basis}/${encoder}/${evaluator}`;
+            list.push([`${codec} with ${specular}`, code(language, codec, "--need", "specular", "--specular", specular)]);
+        }
     for (const codec of ["sh1/moments/geomerics", "sg12/nnls/hill"])
         for (const storage of storages) list.push([`${codec} as ${storage}`, code(language, codec, "--storage", storage)]);
     return list.filter(([, text]) => text !== null);

@@ -175,7 +175,7 @@ Result<Manifest> write_bake(FilesTogether files, const Bake& bake, const WriteBa
     auto status = choose_precision(bake, manifest);
     if (status) status = add_pages(files, bake, *textures, manifest);
     if (status) status = add_exports(files, bake, *exports, manifest);
-    if (status) status = add_shaders(files, textures->storages(), manifest);
+    if (status) status = add_shaders(files, textures->storages(), textures->container(), manifest);
     if (status) status = add_probes(files, bake, options.textures, manifest);
     if (status && options.scene != nullptr) {
         auto lightmaps = lightmaps_in_scene(bake, *exports);

@@ -23,6 +23,7 @@ class PageTextures {
                                                    std::array<std::size_t, 2> page_size);
 
     [[nodiscard]] const std::vector<const Storage*>& storages() const { return storages_; }
+    [[nodiscard]] const TextureContainer& container() const { return *container_; }
 
     /// Writes page-N.STORAGE.TEXTURE.CONTAINER, or page-N.STORAGE.FORMAT.CONTAINER for those that share an array
     /// texture, and page-N.validity.CONTAINER, packed storage by storage, and enters them in `entry`, whose page file

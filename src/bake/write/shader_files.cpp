@@ -3,19 +3,19 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
+#include "bake/write/ggx_table_file.h"
 #include "lobelia/codec.h"
 #include "shade/shader.h"
 
 namespace lobelia {
 namespace {
 
-constexpr std::string_view k_stem = "decode.";
+constexpr std::string_view k_stem = "decode.", k_table_stem = "ggx-lobe.";
 
 }  // namespace
 
-Status add_shaders(FilesTogether& files, const std::vector<const Storage*>& storages, Manifest& manifest) {
+Status add_shaders(FilesTogether& files, const std::vector<const Storage*>& storages, const TextureContainer& container,
+                   Manifest& manifest) {
     if (storages.empty()) return Done{};
     const auto codec = make_codec(manifest.options.codec);
     if (!codec) return codec.error();
@@ -25,6 +25,11 @@ Status add_shaders(FilesTogether& files, const std::vector<const Storage*>& stor
     }
     shade::ShaderRequest request;
     request.frame = manifest.options.frame == Frame::tangent ? shade::Frame::tangent : shade::Frame::scene;
+    if (!codec->basis().specular_names().empty()) {
+        request.needs.push_back(shade::Need::specular);
+        const auto write = [&](StagedFile& file) { return write_ggx_table(container, file); };
+        if (Status status = files.add(fmt::format("{}{}", k_table_stem, container.name), write); !status) return status;
+    }
     for (const Storage* storage : storages) {
         request.storage = storage;
         for (const shade::LanguageInfo& language : shade::languages()) {
@@ -41,10 +46,11 @@ Status add_shaders(FilesTogether& files, const std::vector<const Storage*>& stor
 }
 
 bool is_name_of_shader(std::string_view name) {
-    const auto& list = shade::languages();
-    return name.starts_with(k_stem) && std::any_of(list.begin(), list.end(), [&](const shade::LanguageInfo& language) {
-               return name.ends_with(language.extension);
-           });
+    for (const shade::LanguageInfo& language : shade::languages())
+        if (name.starts_with(k_stem) && name.ends_with(language.extension)) return true;
+    for (const TextureContainer& container : texture_containers())
+        if (name.starts_with(k_table_stem) && name.substr(k_table_stem.size()) == container.name) return true;
+    return false;
 }
 
 }  // namespace lobelia
