@@ -5,7 +5,7 @@ from pathlib import Path
 
 import bpy
 
-from . import export, lightmaps
+from . import export, lightmaps, world
 from .process import Command
 
 bl_info = {
@@ -32,7 +32,7 @@ class LobeliaSettings(bpy.types.PropertyGroup):
     size: bpy.props.IntProperty(name="Page size", description="Texels of a side", default=512, min=16, max=16384)
     samples: bpy.props.IntProperty(name="Samples", description="Of each texel", default=256, min=16, max=1000000)
     bounces: bpy.props.IntProperty(name="Bounces", default=8, min=0, max=64)
-    environment: bpy.props.StringProperty(name="Environment", description="A latitude-longitude .hdr or .exr, or \"sky\"; empty: the world's colour is not used", subtype="FILE_PATH")
+    environment: bpy.props.StringProperty(name="Environment", description="A latitude-longitude .hdr or .exr, or \"sky\"; empty: the world's background", subtype="FILE_PATH")
     folder: bpy.props.StringProperty(name="Folder", description="Of the bake; empty: a temporary one", subtype="DIR_PATH")
 
 
@@ -69,13 +69,13 @@ def add_lightmap_uvs(objects, margin=0.02):
         o.data.uv_layers[0].active = True
 
 
-def bake_arguments(context, scene_file, folder):
+def bake_arguments(context, scene_file, folder, environment):
     s = context.scene.lobelia
     arguments = [program_of(context), "bake", scene_file, "--codec", s.codec, "--size", f"{s.size}x{s.size}", "--samples",
                  str(s.samples), "--bounces", str(s.bounces), "--precision", "float", "--storage", "float32", "--no-report",
                  "-o", folder]
-    if s.environment:
-        arguments += ["--env", s.environment if s.environment == "sky" else bpy.path.abspath(s.environment)]
+    if environment:
+        arguments += ["--env", environment]
     return arguments
 
 
@@ -124,11 +124,23 @@ class LOBELIA_OT_bake(bpy.types.Operator):
         for warning in export.export_scene(scene_file, self.objects):
             self.report({"WARNING"}, warning)
         try:
-            self.command = Command(bake_arguments(context, scene_file, self.folder))
+            self.command = Command(bake_arguments(context, scene_file, self.folder, self.environment(context)))
         except RuntimeError as error:
+            shutil.rmtree(self.work, ignore_errors=True)
             self.report({"ERROR"}, str(error))
             return False
         return True
+
+    def environment(self, context):
+        """The chosen environment, else the world's background as a file; empty for none."""
+        chosen = context.scene.lobelia.environment
+        if chosen:
+            return chosen if chosen in ("sky", "none") else bpy.path.abspath(chosen)
+        file = str(Path(self.work) / "world.exr")
+        written, warnings = world.write_environment(context.scene.world, file)
+        for warning in warnings:
+            self.report({"WARNING"}, warning)
+        return file if written else ""
 
     def finish(self, context):
         result = self.take(context)

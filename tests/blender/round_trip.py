@@ -8,11 +8,12 @@ from pathlib import Path
 
 import bpy
 import numpy
+from mathutils import Vector
 
 root = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(root / "blender"))
 import lobelia_bake  # noqa: E402
-from lobelia_bake import exr, lightmaps  # noqa: E402
+from lobelia_bake import exr, lightmaps, world  # noqa: E402
 
 program, work = sys.argv[sys.argv.index("--") + 1:][:2]
 width, height = 160, 120
@@ -131,6 +132,40 @@ for codec in ("sh2/moments/convolution", "ahd/moments/punctual"):
         inside = numpy.median(baked / numpy.maximum(path_traced, 1e-3))
         check(abs(inside - 1) < 0.03, f"brightness over Cycles' own path tracing, median {inside:.3f}")
 lightmaps.restore([room, block])
+
+
+def check_world():
+    """The world's image, written for --env, against Cycles looking in four directions."""
+    scene, size = bpy.context.scene, (64, 32)
+    pixels = numpy.ones((size[1], size[0], 4), numpy.float32)
+    around = 2 * math.pi * (numpy.arange(size[0]) + 0.5) / size[0]
+    pixels[:, :, 0], pixels[:, :, 1] = 1 + numpy.cos(around), 1 + numpy.sin(around)
+    pixels[:, :, 2] = ((numpy.arange(size[1]) + 0.5) / size[1])[:, None]
+    image = bpy.data.images.new("sky", *size, float_buffer=True)
+    image.colorspace_settings.name = "Non-Color"
+    image.pixels.foreach_set(pixels.ravel())
+    image.pack()
+    tree = scene.world.node_tree
+    texture = tree.nodes.new("ShaderNodeTexEnvironment")
+    texture.image = image
+    tree.links.new(texture.outputs[0], tree.nodes["Background"].inputs[0])
+    tree.nodes["Background"].inputs[1].default_value = 2
+    check(world.write_environment(scene.world, f"{work}/world.exr") == (True, []), "the world's image is written")
+    written = picture(f"{work}/world.exr")
+    for o in scene.objects:
+        o.hide_render = o.type != "CAMERA"
+    scene.camera.data.angle = 0.02
+    for direction in ((1, 0, 0), (0, 1, 0), (-1, 0.2, 0.3), (0.3, -1, -0.5)):
+        x, y, z = v = Vector(direction).normalized()
+        scene.camera.rotation_euler = v.to_track_quat("-Z", "Y").to_euler()
+        seen = cycles(4, f"{work}/seen.exr").mean((0, 1))
+        # Our mapping of glTF's (x, z, -y), docs/conventions.md.
+        u, row = (1 + math.atan2(x, y) / math.pi) / 2, math.acos(z) / math.pi
+        texel = written[min(int(row * size[1]), size[1] - 1), min(int(u * size[0]), size[0] - 1)]
+        check(numpy.abs(texel - seen).max() < 0.15, f"the world along {direction}: {texel} written, {seen} by Cycles")
+
+
+check_world()
 check([s.material.name for s in room.material_slots] == ["white"], "the original materials are back")
 bpy.context.scene.lobelia.codec = "sh2/moment/convolution"
 for o in bpy.context.scene.objects:
