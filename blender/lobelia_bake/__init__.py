@@ -29,6 +29,8 @@ class LobeliaPreferences(bpy.types.AddonPreferences):
 
 class LobeliaSettings(bpy.types.PropertyGroup):
     codec: bpy.props.StringProperty(name="Codec", description="basis/encoder/evaluator, see lobelia list", default="sh2/moments/convolution")
+    frame: bpy.props.EnumProperty(name="Frame", description="Coordinate frame of spherical coefficients", default="world",
+                                  items=[("world", "World", ""), ("tangent", "Tangent", "Of each texel")])
     size: bpy.props.IntProperty(name="Page size", description="Texels of a side", default=512, min=16, max=16384)
     samples: bpy.props.IntProperty(name="Samples", description="Of each texel", default=256, min=16, max=1000000)
     bounces: bpy.props.IntProperty(name="Bounces", default=8, min=0, max=64)
@@ -71,7 +73,7 @@ def add_lightmap_uvs(objects, margin=0.02):
 
 def bake_arguments(context, scene_file, folder, environment):
     s = context.scene.lobelia
-    arguments = [program_of(context), "bake", scene_file, "--codec", s.codec, "--size", f"{s.size}x{s.size}", "--samples",
+    arguments = [program_of(context), "bake", scene_file, "--codec", s.codec, "--frame", s.frame, "--size", f"{s.size}x{s.size}", "--samples",
                  str(s.samples), "--bounces", str(s.bounces), "--precision", "float", "--storage", "float32", "--no-report",
                  "-o", folder]
     if environment:
@@ -222,7 +224,7 @@ class LOBELIA_PT_panel(bpy.types.Panel):
     def draw(self, context):
         layout, settings = self.layout, context.scene.lobelia
         layout.use_property_split = True
-        for name in ("codec", "size", "samples", "bounces", "environment", "folder"):
+        for name in ("codec", "frame", "size", "samples", "bounces", "environment", "folder"):
             layout.prop(settings, name)
         layout.operator("lobelia.uvs")
         layout.operator("lobelia.bake")

@@ -85,6 +85,8 @@ def write_glb(path, document, rest):
 def export_scene(path, objects):
     """Writes the objects, all lights that are visible in renders, and the cameras. Returns warnings."""
     scene, warnings = bpy.context.scene, []
+    # Objects that a script has just made or moved have old matrices until then.
+    bpy.context.view_layer.update()
     lights = [o for o in scene.objects if o.type == "LIGHT" and not o.hide_render]
     for light in lights:
         if light.data.use_nodes and any(n.type == "TEX_IES" for n in light.data.node_tree.nodes):
