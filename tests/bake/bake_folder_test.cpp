@@ -162,11 +162,11 @@ TEST_F(CommittedBake, FilesOfTheOlderBakeAreRemoved) {
     ASSERT_TRUE(write_bake(path(), named("a"), {.textures = {.storages = {{"float32"}}}}));
     test::overwrite(path() / "page-notes.txt", "mine");
     test::overwrite(path() / "bake.html", "older");
-    ASSERT_TRUE(fs::exists(path() / "page-0.float32.v0.ktx2"));
+    ASSERT_TRUE(fs::exists(path() / "page-0.float32.rgba32f.ktx2"));
     Bake bake = named("b");
     bake.probes.reset();
     ASSERT_TRUE(write_bake(path(), bake, {.textures = {.storages = {{"float16"}}}}));
-    EXPECT_FALSE(fs::exists(path() / "page-0.float32.v0.ktx2"));
+    EXPECT_FALSE(fs::exists(path() / "page-0.float32.rgba32f.ktx2"));
     EXPECT_FALSE(fs::exists(path() / "probes.bin"));
     EXPECT_FALSE(fs::exists(path() / "bake.html"));
     EXPECT_TRUE(fs::exists(path() / "page-0.float16.rgba16f.ktx2"));
