@@ -33,7 +33,8 @@ const evaluators = codecs.filter((_, i) => parts.findIndex(([basis, , evaluator]
 const bases = parts.filter(([basis], i) => parts.findIndex((other) => other[0] === basis) === i);
 const speculars = new Map();
 const axes = execFileSync(lobelia, ["list", "--axes"], { encoding: "utf8" });
-for (const line of axes.split(/^specular evaluators$/m)[1].split("\n").filter((text) => text.startsWith("  "))) {
+const section = axes.split(/^specular evaluators$/m)[1].split("\n").slice(1);
+for (const line of section.slice(0, section.findIndex((text) => !text.startsWith("  ")))) {
     const [, name, list] = line.match(/^ {2}(\S+) +(.*)$/);
     for (const basis of list.split(", ")) speculars.set(basis, [...(speculars.get(basis) ?? []), name]);
 }

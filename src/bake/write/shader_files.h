@@ -12,8 +12,9 @@
 namespace lobelia {
 
 /// Writes decode.STORAGE.glsl, .hlsl, .wgsl and .metal for each storage: the functions that unpack its textures and
-/// evaluate irradiance and, where the basis has a specular evaluator, specular reflection; then also the table that this
-/// samples, ggx-lobe.CONTAINER. For an evaluator without shader code it writes none and adds a warning with the reason.
+/// evaluate irradiance and, where the basis has a specular evaluator, specular reflection; then also the table that
+/// this samples, ggx-lobe.CONTAINER. For an evaluator without shader code it writes none and adds a warning with the
+/// reason.
 [[nodiscard]] Status add_shaders(FilesTogether& files, const std::vector<const Storage*>& storages,
                                  const TextureContainer& container, Manifest& manifest);
 
