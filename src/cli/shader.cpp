@@ -17,6 +17,13 @@ struct ShaderArguments {
     std::vector<std::string> needs;
 };
 
+/// Writes to a file, or to standard output if `path` is empty.
+Status put(const std::string& text, const std::string& path) {
+    if (!path.empty()) return write_file_atomically(path, text);
+    print_text(text);
+    return Done{};
+}
+
 Status shader_verb(const ShaderArguments& arguments) {
     const auto codec = make_codec(arguments.codec);
     if (!codec) return codec.error();
@@ -38,11 +45,12 @@ Status shader_verb(const ShaderArguments& arguments) {
     request.specular = arguments.specular;
     const auto text = shade::shader_text(*codec, request);
     if (!text) return text.error();
-    if (!arguments.table.empty())
-        if (Status status = write_ggx_table(arguments.table); !status) return status;
-    if (!arguments.out.empty()) return write_file_atomically(arguments.out, *text);
-    print_text(*text);
-    return Done{};
+    if (arguments.table.empty()) return put(*text, arguments.out);
+    // The table takes its place once the text has been written.
+    auto table = stage_ggx_table(arguments.table);
+    if (!table) return table.error();
+    const Status status = put(*text, arguments.out);
+    return status ? table->commit() : status;
 }
 
 }  // namespace

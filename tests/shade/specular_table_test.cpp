@@ -52,8 +52,10 @@ std::string shader_of(const test::ShaderCase& shader, std::size_t coefficients, 
 
 TEST(SpecularTable, TheTextureGivesWhatTheLibraryReflects) {
     const test::TestFolder folder("specular-table");
-    ASSERT_TRUE(write_ggx_table(folder.path() / "ggx-lobe.ktx2"));
-    EXPECT_FALSE(write_ggx_table(folder.path() / "ggx-lobe.png"));
+    auto file = stage_ggx_table(folder.path() / "ggx-lobe.ktx2");
+    ASSERT_TRUE(file) << file.error().message;
+    ASSERT_TRUE(file->commit());
+    EXPECT_FALSE(stage_ggx_table(folder.path() / "ggx-lobe.png"));
     auto vulkan = test::VulkanCompute::open();
     if (!vulkan) GTEST_SKIP() << "textures are not sampled here: " << vulkan.error().message;
     if (!test::has_glslang()) GTEST_SKIP() << "textures are not sampled here: no glslangValidator";

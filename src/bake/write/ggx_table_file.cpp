@@ -17,15 +17,16 @@ Status write_ggx_table(const TextureContainer& container, StagedFile& file) {
     return write_texture(container, file, texture);
 }
 
-Status write_ggx_table(const std::filesystem::path& path) {
+Result<StagedFile> stage_ggx_table(const std::filesystem::path& path) {
     const std::string extension = path.extension().string();
     const auto container = find_texture_container(extension.substr(std::min<std::size_t>(1, extension.size())));
     if (!container) return Error{path.string() + ": " + container.error().message};
     auto file = StagedFile::create(path);
-    if (!file) return file.error();
+    if (!file) return file;
     Status status = write_ggx_table(**container, *file);
     if (status) status = file->flush();
-    return status ? file->commit() : status;
+    if (!status) return status.error();
+    return file;
 }
 
 }  // namespace lobelia

@@ -7,7 +7,7 @@ namespace lobelia {
 
 /// Writes ggx_table() as an array texture of half floats.
 [[nodiscard]] Status write_ggx_table(const TextureContainer& container, StagedFile& file);
-/// The same as a file of its own; its extension names the container.
-[[nodiscard]] Status write_ggx_table(const std::filesystem::path& path);
+/// Stages a file of its own, flushed; its extension names the container.
+[[nodiscard]] Result<StagedFile> stage_ggx_table(const std::filesystem::path& path);
 
 }  // namespace lobelia
