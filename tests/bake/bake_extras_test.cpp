@@ -59,8 +59,8 @@ TEST(ShaderFiles, StandBesideTheTexturesOfTheirStorage) {
     const Bake bake = test::some_bake("sh1/moments/geomerics", Frame::tangent);
     const auto manifest = written(folder.path(), bake, {}, {"float16", "ratio8"});
     ASSERT_TRUE(manifest) << manifest.error().message;
-    for (const std::string storage : {"float16", "ratio8"})
-        for (const std::string extension : {"glsl", "hlsl", "wgsl", "metal"}) {
+    for (const std::string& storage : std::vector<std::string>{"float16", "ratio8"})
+        for (const std::string& extension : std::vector<std::string>{"glsl", "hlsl", "wgsl", "metal"}) {
             const std::string name = "decode." + storage + "." + extension;
             const std::string text = test::contents(folder.path() / name);
             for (const char* function : {"to_tangent(", "unpack(", "irradiance(", "specular("})

@@ -300,7 +300,7 @@ TEST(ProbeVolume, OctahedralMapsGoOnBeyondTheirEdges) {
                 a = (1 - std::abs(v)) * (u < 0 ? -1 : 1);
                 b = (1 - std::abs(u)) * (v < 0 ? -1 : 1);
             }
-            map[static_cast<std::size_t>(y * k_side + x)] = {
+            map[static_cast<std::size_t>(y) * k_side + static_cast<std::size_t>(x)] = {
                 f(normalize(Vec3{static_cast<float>(a), static_cast<float>(b), static_cast<float>(z)})), 0};
         }
     for (std::size_t i = 0; i < directions.size(); ++i) {
