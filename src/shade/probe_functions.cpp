@@ -1,20 +1,17 @@
 #include "shade/probe_functions.h"
 
+#include "core/math/octahedral_map.h"
+
 namespace lobelia::shade {
 
 // The same arithmetic as in src/bake/probes/probe_volume.cpp; ShaderParity compares them.
 std::vector<ShaderFunction> probe_functions() {
     return {
-        {"probe_map_place",
-         R"(/// Returns the place of a unit direction on a probe's octahedral map, in [0, 1]^2 (Praun and Hoppe 2003).
+        octahedral_place_code(),
+        {"probe_map_place", R"(/// Returns the place of a unit direction on a probe's octahedral map, in [0, 1]^2.
 vec2 probe_map_place(vec3 w) {
-    float scale = 0.5 / (abs(w.x) + abs(w.y) + abs(w.z));
-    float u = w.x * scale;
-    float v = w.y * scale;
-    if (w.z >= 0.0) {
-        return vec2(0.5 + u, 0.5 + v);
-    }
-    return vec2(0.5 + (0.5 - abs(v)) * choose(u < 0.0, -1.0, 1.0), 0.5 + (0.5 - abs(u)) * choose(v < 0.0, -1.0, 1.0));
+    vec2 place = octahedral_place(w);
+    return vec2(0.5 + 0.5 * place.x, 0.5 + 0.5 * place.y);
 }
 )"},
         {"probe_weight",

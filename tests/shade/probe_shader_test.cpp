@@ -3,7 +3,7 @@
 
 #include <random>
 
-#include "core/basis/octahedral.h"
+#include "core/math/octahedral_map.h"
 #include "glslang.h"
 #include "lobelia/probe_volume.h"
 #include "shade/shader.h"

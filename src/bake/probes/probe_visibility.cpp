@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/basis/octahedral.h"
+#include "core/math/octahedral_map.h"
 #include "core/sample/directions.h"
 #include "lobelia/sampling.h"
 

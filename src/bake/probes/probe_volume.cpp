@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "core/basis/octahedral.h"
+#include "core/math/octahedral_map.h"
 
 namespace lobelia {
 namespace {

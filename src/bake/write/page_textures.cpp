@@ -20,12 +20,6 @@ using Metadata = std::map<std::string, std::string>;
 /// The textures that share a file: one, or the layers of an array texture.
 using Group = std::vector<std::size_t>;
 
-std::string channels_text(const Layout& layout) {
-    std::string text;
-    for (const StoredChannel& channel : layout.channels) text += (text.empty() ? "" : "\n") + channel_text(channel);
-    return text;
-}
-
 /// The keys of a file; those that differ from layer to layer hold a text for each, an empty line between two.
 Metadata metadata_of(const std::vector<TextureEntry>& entries, const Group& group, const std::string& origin) {
     const TextureEntry& first = entries[group.front()];

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "core/basis/octahedral.h"
+#include "core/math/octahedral_map.h"
 #include "core/storage/layout_text.h"
 #include "io/texture/container.h"
 #include "lobelia/codec.h"
@@ -45,12 +45,9 @@ Status add_coefficients(FilesTogether& files, const ProbeSet& probes, const Text
         const auto take = [&](const TextureLayout::Texture& layout, const PackedTexture& packed) {
             TextureFile file = volume(*probes.grid, packed.format, options);
             file.levels = {packed.data};
-            std::string channels;
-            for (const StoredChannel& channel : layout.channels)
-                channels += (channels.empty() ? "" : "\n") + channel_text(channel);
             file.metadata = {{"lobelia.storage", name},
                              {"lobelia.format", std::string(info(layout.format).name)},
-                             {"lobelia.channels", channels},
+                             {"lobelia.channels", channels_text(layout)},
                              {"lobelia.scale", fmt::format("{}", packed.scale)},
                              {"lobelia.origin", probes.codec + ", world frame"}};
             return files.add(fmt::format("probes.{}.{}.{}", name, layout.name, container.name),

@@ -29,21 +29,6 @@ std::string turn(const Rotation& map_from_domain, const std::string& direction, 
     return "turned";
 }
 
-ShaderFunction octahedral_place() {
-    return {
-        "octahedral_place",
-        "/// Returns the place of a direction on the unfolded octahedron, in [-1, 1]^2 (Praun and Hoppe 2003).\n"
-        "vec2 octahedral_place(vec3 w) {\n"
-        "    float scale = 1.0 / (abs(w.x) + abs(w.y) + abs(w.z));\n"
-        "    float u = w.x * scale;\n"
-        "    float v = w.y * scale;\n"
-        "    if (w.z >= 0.0) {\n"
-        "        return vec2(u, v);\n"
-        "    }\n"
-        "    return vec2((1.0 - abs(v)) * choose(u < 0.0, -1.0, 1.0), (1.0 - abs(u)) * choose(v < 0.0, -1.0, 1.0));\n"
-        "}\n"};
-}
-
 ShaderFunction cell_irradiance() {
     return {"cell_irradiance",
             "/// Returns the irradiance of a cell: of light spread evenly over cosines from t - width to t + width, "
@@ -61,7 +46,7 @@ ShaderFunction cell_irradiance() {
 Result<ShaderCode> radiance_code(const OctahedralTexels& basis) {
     if (Status status = check_count(basis.size()); !status) return status.error();
     const std::size_t resolution = basis.map().resolution;
-    ShaderCode code{{octahedral_place()}, {}, {}};
+    ShaderCode code{{octahedral_place_code()}, {}, {}};
     const std::string name = turn(basis.map_from_domain(), "w", code.statements);
     code.statements += filled(
         "    vec2 place = octahedral_place($0);\n"

@@ -64,4 +64,10 @@ std::string channel_text(const StoredChannel& channel) {
     return channel.form == StoredChannel::Form::ratio ? text + " / " + part(0) : text;
 }
 
+std::string channels_text(const TextureLayout::Texture& texture) {
+    std::string text;
+    for (const StoredChannel& channel : texture.channels) text += (text.empty() ? "" : "\n") + channel_text(channel);
+    return text;
+}
+
 }  // namespace lobelia

@@ -16,6 +16,9 @@ namespace lobelia {
 /// Returns the formula of a channel, such as "c1.r" or "0.5 + 0.288675 c1.r / c0.r".
 [[nodiscard]] std::string channel_text(const StoredChannel& channel);
 
+/// Returns the formulae of a texture's channels, a line each.
+[[nodiscard]] std::string channels_text(const TextureLayout::Texture& texture);
+
 [[nodiscard]] std::string_view component_name(Component component);
 
 }  // namespace lobelia
