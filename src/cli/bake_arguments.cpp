@@ -1,10 +1,10 @@
 // Converts the options of lobelia bake to its job.
 #include <charconv>
-#include <cmath>
 
 #include "bake/check_job.h"
 #include "cli/bake_options.h"
 #include "cli/common.h"
+#include "cli/numbers.h"
 
 namespace lobelia::cli {
 namespace {
@@ -27,15 +27,10 @@ Result<Shard> parse_shard(const std::string& text, Shard::By by) {
 /// Parses "scene", or two corners "x,y,z,x,y,z".
 Result<std::optional<std::array<Vec3, 2>>> parse_box(const std::string& text) {
     if (text == "scene") return std::optional<std::array<Vec3, 2>>();
-    std::array<float, 6> v{};
-    const char *at = text.data(), *end = at + text.size();
-    for (std::size_t i = 0; i < v.size(); ++i) {
-        const auto [rest, code] = std::from_chars(at, end, v[i]);
-        const bool last = i + 1 == v.size();
-        if (code != std::errc() || !std::isfinite(v[i]) || (last ? rest != end : rest == end || *rest != ','))
-            return Error{"--probes: \"" + text + "\" is neither \"scene\" nor two corners such as -1,0,-1,1,2,1"};
-        at = rest + 1;
-    }
+    const auto numbers = parse_numbers(text);
+    if (!numbers || numbers->size() != 6)
+        return Error{"--probes: \"" + text + "\" is neither \"scene\" nor two corners such as -1,0,-1,1,2,1"};
+    const std::vector<float>& v = *numbers;
     if (v[0] > v[3] || v[1] > v[4] || v[2] > v[5]) return Error{"--probes: the first corner must be the lower one"};
     return std::optional(std::array{Vec3{v[0], v[1], v[2]}, Vec3{v[3], v[4], v[5]}});
 }

@@ -4,30 +4,14 @@
 #include <fmt/core.h>
 #include <fmt/ranges.h>
 
-#include <charconv>
 #include <cmath>
-#include <optional>
 #include <vector>
 
+#include "cli/numbers.h"
 #include "lobelia/render.h"
 
 namespace lobelia::cli {
 namespace {
-
-/// Numbers with commas between them, or nothing where it is anything else.
-std::optional<std::vector<float>> parse_numbers(const std::string& text) {
-    std::vector<float> numbers;
-    const char *at = text.data(), *end = at + text.size();
-    for (;;) {
-        float value = 0;
-        const auto [rest, code] = std::from_chars(at, end, value);
-        if (code != std::errc() || !std::isfinite(value)) return std::nullopt;
-        numbers.push_back(value);
-        if (rest == end) return numbers;
-        if (*rest != ',') return std::nullopt;
-        at = rest + 1;
-    }
-}
 
 Result<Camera> camera_from(const std::vector<float>& numbers, const std::string& text) {
     const Vec3 eye{numbers[0], numbers[1], numbers[2]}, target{numbers[3], numbers[4], numbers[5]};

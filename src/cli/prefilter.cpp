@@ -2,24 +2,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "bake/render/render_around.h"
-#include "bake/write/files_together.h"
 #include "cli/bake_input.h"
 #include "cli/common.h"
 #include "cli/environment_input.h"
 #include "cli/interrupt.h"
+#include "cli/numbers.h"
 #include "cli/options.h"
 #include "cli/output.h"
 #include "cli/scene_input.h"
 #include "cli/verbs.h"
-#include "coefficients/encode.h"
-#include "io/json.h"
-#include "io/texture/container.h"
 #include "lobelia/bake.h"
-#include "lobelia/pixel_format.h"
-#include "measure/prefilter.h"
+#include "measure/prefilter_files.h"
 #include "scene/embedded.h"
 
 namespace lobelia::cli {
@@ -27,7 +22,6 @@ namespace {
 
 /// More than this share of a view inside of things is worth a warning, as for probes.
 constexpr double k_many_back_faces = 0.25;
-constexpr std::size_t k_table_size = 64;
 
 struct PrefilterArguments {
     EnvironmentOptions environment;
@@ -44,13 +38,9 @@ bool is_scene(const std::string& path) {
 }
 
 Result<Vec3> parse_place(const std::string& text) {
-    std::array<double, 3> p{};
-    int end = 0;
-    if (std::sscanf(text.c_str(), "%lf,%lf,%lf%n", &p[0], &p[1], &p[2], &end) != 3 ||
-        static_cast<std::size_t>(end) != text.size() ||
-        !std::all_of(p.begin(), p.end(), [](double v) { return std::abs(v) <= 1e15; }))
-        return Error{"--at: \"" + text + "\" is not a place x,y,z [m]"};
-    return Vec3{static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])};
+    const auto numbers = parse_numbers(text);
+    if (!numbers || numbers->size() != 3) return Error{"--at: \"" + text + "\" is not a place x,y,z [m]"};
+    return Vec3{(*numbers)[0], (*numbers)[1], (*numbers)[2]};
 }
 
 Result<Image> view_of_scene(const PrefilterArguments& arguments, const StopOnInterrupt& stop) {
@@ -95,95 +85,6 @@ Result<Image> radiance(const PrefilterArguments& arguments, const StopOnInterrup
     return std::move(environment->image);
 }
 
-/// The format of an option that is one of the list's.
-PixelFormat format_of(const PrefilterArguments& arguments) {
-    const auto formats = pixel_formats();
-    return *std::find_if(formats.begin(), formats.end(),
-                         [&](PixelFormat format) { return info(format).name == arguments.format; });
-}
-
-/// Bytes of a level in a pixel format, face after face.
-std::vector<std::byte> packed(const CubeLevel& level, PixelFormat format, float scale) {
-    std::vector<std::byte> bytes;
-    const std::size_t texels = level.size * level.size;
-    for (std::size_t face = 0; face < 6; ++face) {
-        std::array<std::vector<float>, 4> planes;
-        for (std::size_t k = 0; k < 4; ++k)
-            for (std::size_t i = 0; i < texels; ++i)
-                planes[k].push_back(k == 3 ? 1 : (&level.texels[face * texels + i].r)[k] / scale);
-        std::vector<const float*> channels;
-        for (std::size_t k = 0; k < info(format).channels; ++k) channels.push_back(planes[k].data());
-        std::vector<std::byte> part(byte_size(format, level.size, level.size));
-        encode_texels(format, level.size, level.size, channels, part);
-        bytes.insert(bytes.end(), part.begin(), part.end());
-    }
-    return bytes;
-}
-
-Status add_cube(FilesTogether& files, const std::vector<CubeLevel>& levels, const PrefilterArguments& arguments,
-                float scale) {
-    const PixelFormat format = format_of(arguments);
-    std::vector<std::vector<std::byte>> bytes;
-    for (const CubeLevel& level : levels) bytes.push_back(packed(level, format, scale));
-    TextureFile texture{format, levels.front().size, levels.front().size};
-    texture.levels.assign(bytes.begin(), bytes.end());
-    texture.faces = 6;
-    texture.metadata = {{"lobelia.channels", "radiance, prefiltered by GGX"},
-                        {"lobelia.convention", arguments.convention},
-                        {"lobelia.scale", fmt::format("{}", scale)}};
-    return files.add("specular.ktx2", [&](StagedFile& file) {
-        return write_texture(*find_texture_container("ktx2").value(), file, texture);
-    });
-}
-
-Status add_table(FilesTogether& files) {
-    const auto table = split_sum_table(k_table_size);
-    std::array<std::vector<float>, 2> planes;
-    for (const auto& entry : table)
-        for (std::size_t k = 0; k < 2; ++k) planes[k].push_back(entry[k]);
-    const std::array<const float*, 2> channels = {planes[0].data(), planes[1].data()};
-    std::vector<std::byte> bytes(byte_size(PixelFormat::rg16f, k_table_size, k_table_size));
-    encode_texels(PixelFormat::rg16f, k_table_size, k_table_size, channels, bytes);
-    TextureFile texture{PixelFormat::rg16f, k_table_size, k_table_size, {bytes}};
-    texture.metadata = {{"lobelia.channels", "scale of F0\nbias"}};
-    return files.add("split-sum.ktx2", [&](StagedFile& file) {
-        return write_texture(*find_texture_container("ktx2").value(), file, texture);
-    });
-}
-
-Status write_all(const PrefilterArguments& arguments, const Image& image, const std::vector<CubeLevel>& levels,
-                 const StopOnInterrupt& stop) {
-    auto files = FilesTogether::in(arguments.out, &stop.flag());
-    if (!files) return files.error();
-    float largest = 0;
-    for (const CubeLevel& level : levels)
-        for (const Rgb& texel : level.texels) largest = std::max({largest, texel.r, texel.g, texel.b});
-    const float scale = storing_scale(format_of(arguments), largest);
-    if (Status status = add_cube(*files, levels, arguments, scale); !status) return status;
-    if (Status status = add_table(*files); !status) return status;
-    const auto harmonics = encode(image, "sh2/moments/convolution");
-    if (!harmonics) return harmonics.error();
-    if (Status status = files->add_text("irradiance.json", to_text(*harmonics)); !status) return status;
-
-    nlohmann::ordered_json described = nlohmann::ordered_json::array();
-    for (std::size_t i = 0; i < levels.size(); ++i)
-        described.push_back(
-            {{"level", i}, {"size", levels[i].size}, {"roughness", levels[i].roughness}, {"error", levels[i].error}});
-    const nlohmann::ordered_json document = {{"lobelia_prefilter", 1},
-                                             {"source", arguments.environment.path},
-                                             {"at", arguments.at},
-                                             {"convention", arguments.convention},
-                                             {"specular", "specular.ktx2"},
-                                             {"format", arguments.format},
-                                             {"scale", scale},
-                                             {"split_sum", "split-sum.ktx2"},
-                                             {"irradiance", "irradiance.json"},
-                                             {"samples", arguments.options.samples},
-                                             {"levels", std::move(described)}};
-    if (Status status = files->add_text("prefilter.json", json_text(document, 1) + "\n"); !status) return status;
-    return files->commit();
-}
-
 Status prefilter_verb(const PrefilterArguments& given) {
     PrefilterArguments arguments = given;
     if (auto status = check_folder(arguments.out); !status) return status;
@@ -197,7 +98,9 @@ Status prefilter_verb(const PrefilterArguments& given) {
     arguments.options.progress = progress_bar();
     const auto levels = prefilter(*image, arguments.options);
     if (!levels) return ended(levels.error(), stop);
-    if (Status status = write_all(arguments, *image, *levels, stop); !status) return ended(status.error(), stop);
+    const PrefilterFiles about{arguments.environment.path, arguments.at, arguments.format, arguments.options};
+    if (Status status = write_prefilter(arguments.out, *image, *levels, about); !status)
+        return ended(status.error(), stop);
     for (const CubeLevel& level : *levels)
         print_line("{:4} x {:<4} roughness {:.3f}   error {:.4f} RMS", level.size, level.size, level.roughness,
                    level.error);
