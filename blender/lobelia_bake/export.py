@@ -4,7 +4,7 @@ import math
 import struct
 
 import bpy
-from mathutils import Matrix, Vector
+from mathutils import Vector
 
 AREA_PREFIX = "lobelia area light "
 
@@ -92,6 +92,7 @@ def export_scene(path, objects):
         if light.data.use_nodes and any(n.type == "TEX_IES" for n in light.data.node_tree.nodes):
             warnings.append(f"{light.name}: IES profiles are not read by Lobelia; the light shines evenly")
     quads = area_quads(lights, scene.collection)
+    radiances = {quad.data.materials[0].name: radiance for quad, radiance in quads}
     selected, active = list(bpy.context.selected_objects), bpy.context.view_layer.objects.active
     try:
         bpy.ops.object.select_all(action="DESELECT")
@@ -112,16 +113,16 @@ def export_scene(path, objects):
 
     document, rest = read_glb(path)
     used = set(document.get("extensionsUsed", []))
-    for (quad_name, radiance) in [(AREA_PREFIX + l.name, r) for l, r in zip([l for l in lights if l.data.type == "AREA"], [r for _, r in quads])]:
-        for material in document.get("materials", []):
-            if material.get("name") != quad_name:
-                continue
-            strength = max(1.0, *radiance)
-            material["pbrMetallicRoughness"] = {"baseColorFactor": [0, 0, 0, 1], "metallicFactor": 0}
-            material["emissiveFactor"] = [c / strength for c in radiance]
-            material.setdefault("extensions", {})["KHR_materials_emissive_strength"] = {"emissiveStrength": strength}
-            used.add("KHR_materials_emissive_strength")
-            material.pop("doubleSided", None)
+    for material in document.get("materials", []):
+        radiance = radiances.get(material.get("name"))
+        if radiance is None:
+            continue
+        strength = max(1.0, *radiance)
+        material["pbrMetallicRoughness"] = {"baseColorFactor": [0, 0, 0, 1], "metallicFactor": 0}
+        material["emissiveFactor"] = [c / strength for c in radiance]
+        material.setdefault("extensions", {})["KHR_materials_emissive_strength"] = {"emissiveStrength": strength}
+        used.add("KHR_materials_emissive_strength")
+        material.pop("doubleSided", None)
     entries, nodes = light_nodes(lights)
     if entries:
         document.setdefault("extensions", {})["KHR_lights_punctual"] = {"lights": entries}

@@ -108,7 +108,6 @@ def psnr(a, b):
 lobelia_bake.register()
 room, block = make_scene()
 path_traced = cycles(256, f"{work}/cycles.exr")
-bpy.context.preferences.addons  # the add-on is registered without preferences here
 lobelia_bake.program_of = lambda context: program
 bpy.context.scene.lobelia.size, bpy.context.scene.lobelia.samples = 256, 1024
 for codec in ("sh2/moments/convolution", "ahd/moments/punctual"):
