@@ -29,6 +29,7 @@ and measures how wrong each choice is.
   lobelia eval room.json --latlong 64x32 -o irradiance.exr
   lobelia convert room.json --to unity -o unity.json
   lobelia reference room.hdr --latlong 64x32 -o exact.exr
+  lobelia prefilter room.hdr -o folder     a cube map for reflection probes
   lobelia list --axes                      bases, encoders, evaluators, storages
   lobelia study irradiance                 how good each irradiance formula is
   lobelia study specular                   and each specular formula
@@ -36,6 +37,7 @@ and measures how wrong each choice is.
   lobelia unwrap in.glb -o out.glb         lightmap UVs for a scene of yours
   lobelia bake cornell -o bake             lightmaps of a scene, with a report
   lobelia render bake -o picture.png       the scene, lit by its bake
+  lobelia view bake -o page                the same in a browser
 
 lobelia -h lists all verbs, lobelia VERB -h all options of a verb.
 )";
