@@ -173,6 +173,23 @@ TEST_F(BakeOutput, HostileManifestsAreRefusedWithTheirPlace) {
     }
 }
 
+TEST_F(BakeOutput, FilesOfVersion2AreRead) {
+    // Its textures were files of their own, without a layer.
+    const Bake bake = some_bake("sh1/moments/convolution");
+    ASSERT_TRUE(write_bake(path(), bake, {.textures = {.storages = {{"float16"}}, .arrays = Switch::off}}));
+    std::string text = test::contents(path() / "bake.json");
+    const std::string version = "\"lobelia_bake\": 3";
+    const auto found = text.find(version);
+    ASSERT_NE(found, std::string::npos);
+    ASSERT_EQ(text.find("\"layer\""), std::string::npos);
+    test::overwrite(path() / "bake.json", text.replace(found, version.size(), "\"lobelia_bake\": 2"));
+    const auto read = read_bake(path());
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(read->pages[1].planes, bake.pages[1].planes);
+    ASSERT_EQ(read->manifest.pages[0].textures.size(), 3u);
+    EXPECT_EQ(read->manifest.pages[0].textures[1].file, "page-0.float16.v1.ktx2");
+}
+
 TEST_F(BakeOutput, TruncatedFilesAreRefused) {
     ASSERT_TRUE(write_bake(path(), some_bake("sh1/moments/convolution")));
     for (const char* name : {"bake.json", "probes.json", "probes.bin", "page-1.exr"}) {
